@@ -64,7 +64,7 @@ from backend.store.schemas import SchemaFiles
 from backend.tuning.library.compare import Compare
 from backend.tuning.library.records import LibraryStore
 from backend.tuning.library.service import Library
-from backend.tuning.limit_proof import ProveLimits, ProvenRevisions, StoredLimitProofs
+from backend.tuning.limit_proof import LimitProofMaker, ProvenRevisions, ProveLimits
 from backend.tuning.live_set import LiveTuning
 from backend.tuning.preview import Preview
 from backend.tuning.records import LimitProofStore, RevisionStore
@@ -153,7 +153,7 @@ def open_services(
             proposals=proposals,
             use_of_table=UseOfTable(store, memory.ride_config, devices.unit_at),
             since_change=SinceChange(store, tuning.revisions),
-            sensor_drift=SensorDriftService(store, devices.known_key, tuning.revisions),
+            sensor_drift=SensorDriftService(store, devices.last_known_key, tuning.revisions),
             why_steady=WhySteady(devices.writable),
             why_ride=WhyRide(store, memory.ride_config),
             ledger=EnergyLedger(store, memory.ride_config),
@@ -166,9 +166,9 @@ def open_services(
         )
 
 
-def make_revisions(store: Store) -> tuple[ProvenRevisions, StoredLimitProofs]:
+def make_revisions(store: Store) -> tuple[ProvenRevisions, LimitProofMaker]:
     """Every unit's configurations, each with the proof that it keeps the limits."""
-    proofs = StoredLimitProofs(LimitProofStore(store.database), __version__)
+    proofs = LimitProofMaker(LimitProofStore(store.database), __version__)
     return ProvenRevisions(RevisionStore(store.database), proofs), proofs
 
 
@@ -179,7 +179,7 @@ def make_health(devices: Devices, recorder: Recorder, store: Store) -> HealthChe
         devices,
         recorder,
         store.watch,
-        store.database.ask,
+        store.database.ping,
         store.soundness,
         store.entries,
     )
@@ -274,10 +274,10 @@ def tidy(
     now_us = time.time_ns() // 1000
     store.try_again()
     recorder.tick(now_us)
-    uploads.look_again()
+    uploads.retry_waiting()
     store.sweep(now_us)
     store.scrub(now_us)
-    last_seen.look(devices.list(), now_us)
+    last_seen.update(devices.list(), now_us)
 
 
 def in_background(name: str, work: Callable[[], object]) -> None:
@@ -301,17 +301,17 @@ def every_second(**works: Callable[[], object]) -> Iterator[None]:
     stopped = threading.Event()
 
     def run(name: str, work: Callable[[], object]) -> None:
-        told = ""
+        note = ""
         while not stopped.wait(HOUSEKEEPING_S):
             try:
                 work()
-                told = ""
+                note = ""
             except Exception as error:
                 # What lasts need not be said every second.
-                if repr(error) != told:
+                if repr(error) != note:
                     fault = None if isinstance(error, SpindleError) else error
                     LOG.warning("%s: %s", name, error, exc_info=fault)
-                told = repr(error)
+                note = repr(error)
 
     threads = [
         threading.Thread(target=run, args=one, name=one[0], daemon=True) for one in works.items()

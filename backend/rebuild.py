@@ -17,8 +17,8 @@ from pathlib import PurePosixPath
 from backend.calibration.files import bring_back_calibration, is_calibration
 from backend.errors import StoreError
 from backend.store.entries import Entries
-from backend.store.facts import KeptRide
-from backend.store.from_object import add_kept, damage_of, files_of, read_kept
+from backend.store.facts import StoredRide
+from backend.store.from_object import add_stored, damage_of, files_of, read_stored
 from backend.store.identity import new_id, write_identity
 from backend.store.inspect_schema import DAMAGED, EMPTY, MISSING, OK, DatabaseView, inspect_database
 from backend.store.locks import hold
@@ -89,10 +89,10 @@ def rebuild_store(db_url: str, objects_url: str) -> Rebuilt:
 
 def rebuilt_store(db_url: str, objects: FileObjects) -> Rebuilt:
     """As `rebuild_store`, over a folder that is there. Raises OSError as the system does."""
-    may_be_rebuilt(inspect_database(db_url, whole=True), db_url, objects)
+    may_be_rebuilt(inspect_database(db_url, check_contents=True), db_url, objects)
     with ExitStack() as closing:
         hold(closing, db_url, objects)
-        view = inspect_database(db_url, whole=True)
+        view = inspect_database(db_url, check_contents=True)
         store_id = may_be_rebuilt(view, db_url, objects) or new_id()
         report = Rebuilt(store_id, set_aside=set_aside(view, db_url))
         objects.set_identity(store_id)
@@ -144,7 +144,7 @@ def set_aside(view: DatabaseView, db_url: str) -> list[str]:
 def mend_rows(database: Database, objects: FileObjects, report: Rebuilt) -> None:
     """Mend every ride's row that is damaged, where its object is whole."""
     entries = Entries(database, objects, Soundness(objects.root))
-    entries.look_at_all()
+    entries.check_all()
     report.rides_mended, report.rides_damaged = entries.mended, tuple(sorted(entries.damaged))
 
 
@@ -153,36 +153,38 @@ def bring_back(
 ) -> None:
     """Add every whole ride the database does not know, the oldest first."""
     keys = list(objects.keys())
-    kept: list[KeptRide] = []
+    stored: list[StoredRide] = []
     for key in keys:
         if key.startswith("originals/") or key.endswith(SIDECAR_SUFFIX):
             continue
         try:
-            kept.append(read_kept(objects, key))
+            stored.append(read_stored(objects, key))
         except StoreError as error:
             report.not_taken[key] = error.message
-    fuller = {content_key("rides", old, RIDE_SUFFIX) for ride in kept for old in ride.replaces}
-    for one in sorted(kept, key=lambda kept: (kept.ride.started_us, str(kept.ride.object_key))):
+    fuller = {content_key("rides", old, RIDE_SUFFIX) for ride in stored for old in ride.replaces}
+    for one in sorted(
+        stored, key=lambda stored: (stored.ride.started_us, str(stored.ride.object_key))
+    ):
         key = str(one.ride.object_key)
         if key in fuller:
             report.superseded.append(key)
-        elif key in view.known_keys:
+        elif key in view.named_keys:
             report.rides_before += 1
         else:
             try:
-                add_kept(database, objects, one)
+                add_stored(database, objects, one)
             except NOT_AS_WRITTEN as error:
                 report.not_taken[key] = f"{key} tells no ride: {error!r}."
                 continue
             report.rides += 1
             if one.lost_words is not None:
                 report.lost_words[key] = one.lost_words
-    named = {one.sha256 for ride in kept for one in files_of(ride)}
+    named = {one.sha256 for ride in stored for one in files_of(ride)}
     here = {PurePosixPath(key).name: key for key in keys if key.startswith("originals/")}
-    known = {key for key in here.values() if key in view.known_keys}
+    known_keys = {key for key in here.values() if key in view.named_keys}
     bring_back_calibrations(database, objects, keys, report)
     report.originals_without_ride = sorted(
-        key for sha256, key in here.items() if sha256 not in named and key not in known
+        key for sha256, key in here.items() if sha256 not in named and key not in known_keys
     )
     report.originals_missing = sorted(content_key("originals", s) for s in named - here.keys())
 
@@ -205,7 +207,7 @@ def bring_back_calibrations(
             report.stay[key] = error.message
 
 
-def told(report: Rebuilt) -> Iterable[str]:
+def report_lines(report: Rebuilt) -> Iterable[str]:
     """The report in lines for people."""
     yield f"{report.rides} rides brought back, {report.rides_before} were there already."
     if report.rides_mended:

@@ -93,14 +93,14 @@ def get_calibration_reading(calibration_id: JobId, calibrations: Provided) -> Re
 )
 def set_up_calibration(calibration_id: JobId, body: SetupRequest, calibrations: Provided) -> Job:
     """Gives it its instruments and plan. A fit of before is one no more; captures stay."""
-    told = body.model_dump()
+    setup = body.model_dump()
     place = body.gravity
     if isinstance(place, GravityAt):
-        found = gravity_at(place.latitude_deg, place.height_m, place.height_standard_m)
-        told["gravity"] = to_plain(found)
+        gravity = gravity_at(place.latitude_deg, place.height_m, place.height_standard_m)
+        setup["gravity"] = to_plain(gravity)
     else:
-        told["gravity"]["source"] = "given"
-    calibrations.jobs.set_up(calibration_id, told)
+        setup["gravity"]["source"] = "given"
+    calibrations.jobs.set_up(calibration_id, setup)
     return calibrations.show.get(calibration_id)
 
 

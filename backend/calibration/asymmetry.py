@@ -77,19 +77,19 @@ def asymmetry(setup: Setup, data: Data, fit: Fit) -> Asymmetry | None:
     return Asymmetry(level, *shares[1:])
 
 
-def _regressed(columns: Numbers, told: Numbers, own_variance: Numbers) -> tuple[Numbers, Numbers]:
+def _regressed(columns: Numbers, torque: Numbers, own_variance: Numbers) -> tuple[Numbers, Numbers]:
     """Weighted least squares with the scatter that is left beyond the captures' own variance."""
-    freedom = told.size - columns.shape[1]
+    freedom = torque.size - columns.shape[1]
 
     def solved(extra: float) -> tuple[Numbers, Numbers]:
         weighted = columns / np.sqrt(own_variance + extra)[:, None]
         inverse: Numbers = np.linalg.pinv(weighted).astype(np.float64)
-        return inverse @ (told / np.sqrt(own_variance + extra)), inverse
+        return inverse @ (torque / np.sqrt(own_variance + extra)), inverse
 
     def squares(extra: float) -> float:
-        rest = told - columns @ solved(extra)[0]
+        rest = torque - columns @ solved(extra)[0]
         return float(rest @ (rest / (own_variance + extra)))
 
-    values, inverse = solved(beyond_own(squares, freedom, float(told @ told)))
+    values, inverse = solved(beyond_own(squares, freedom, float(torque @ torque)))
     standard: Numbers = np.sqrt((inverse**2).sum(axis=1))
     return values, standard

@@ -68,15 +68,15 @@ def budget(
         else np.asarray(torque_nm, np.float64)
     )
     flat = np.ones_like(torque)
-    found = [
-        Contribution("fit", _told(_scatter(fit, torque)), float(fit.degrees_of_freedom)),
-        *(Contribution(cause, _told(nm), None) for cause, nm in _shared(fit, torque)),
+    contributions = [
+        Contribution("fit", _as_floats(_scatter(fit, torque)), float(fit.degrees_of_freedom)),
+        *(Contribution(cause, _as_floats(nm), None) for cause, nm in _shared(fit, torque)),
         *(
-            Contribution(cause, _told(flat * standard), freedom)
+            Contribution(cause, _as_floats(flat * standard), freedom)
             for cause, standard, freedom in _of_the_sensor(setup, captures, fit)
         ),
     ]
-    return summed(torque, [entry for entry in found if entry.cause not in without])
+    return summed(torque, [entry for entry in contributions if entry.cause not in without])
 
 
 def summed(torque: Numbers, contributions: Sequence[Contribution]) -> Budget:
@@ -89,12 +89,12 @@ def summed(torque: Numbers, contributions: Sequence[Contribution]) -> Budget:
     ]
     coverage = [coverage_factor(value) for value in freedom]
     return Budget(
-        _told(torque),
+        _as_floats(torque),
         tuple(contributions),
-        _told(combined),
+        _as_floats(combined),
         tuple(freedom),
         tuple(coverage),
-        _told(combined * coverage),
+        _as_floats(combined * coverage),
     )
 
 
@@ -122,12 +122,12 @@ def _scatter(fit: Fit, torque: Numbers) -> Numbers:
 
 def _shared(fit: Fit, torque: Numbers) -> list[tuple[str, Numbers]]:
     by = _by_coefficient(fit, torque)
-    told: dict[str, Numbers] = {}
+    values: dict[str, Numbers] = {}
     for common in fit.common:
         cause = common.cause.partition("_")[0]
         shift = by @ np.array(common.shift[:2])
-        told[cause] = np.hypot(told.get(cause, np.zeros_like(torque)), shift)
-    return list(told.items())
+        values[cause] = np.hypot(values.get(cause, np.zeros_like(torque)), shift)
+    return list(values.items())
 
 
 def _by_coefficient(fit: Fit, torque: Numbers) -> Numbers:
@@ -153,5 +153,5 @@ def _of_the_sensor(
     ]
 
 
-def _told(values: Numbers) -> tuple[float, ...]:
+def _as_floats(values: Numbers) -> tuple[float, ...]:
     return tuple(float(value) for value in values)

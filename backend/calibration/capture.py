@@ -74,15 +74,15 @@ def capture_of(
     """A capture of raw counts (n,), with the figures of those that are no outliers."""
     raw = np.asarray(raw_counts, np.int64)
     out = outliers(raw)
-    kept = np.delete(raw, out).astype(np.float64)
+    remaining = np.delete(raw, out).astype(np.float64)
     return Capture(
         number=number,
         state=state,
         raw_counts=tuple(int(value) for value in raw),
         rejected=tuple(int(index) for index in out),
-        count=kept.size,
-        mean_counts=float(kept.mean()),
-        deviation_counts=float(kept.std(ddof=1)),
+        count=remaining.size,
+        mean_counts=float(remaining.mean()),
+        deviation_counts=float(remaining.std(ddof=1)),
         duration_s=duration_s,
         at_utc_us=at_utc_us,
     )
@@ -93,8 +93,8 @@ def outliers(raw_counts: Sequence[int] | np.ndarray) -> np.ndarray:
     raw = np.asarray(raw_counts, np.float64)
     away = np.abs(raw - np.median(raw))
     deviation = max(1.0, MAD_TO_DEVIATION * float(np.median(away)))
-    found: np.ndarray = np.flatnonzero(away > OUTLIER_DEVIATIONS * deviation)
-    return found
+    indices: np.ndarray = np.flatnonzero(away > OUTLIER_DEVIATIONS * deviation)
+    return indices
 
 
 def state_of(body: Any) -> State:

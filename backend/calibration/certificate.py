@@ -74,7 +74,7 @@ class Evaluated:
     """sha256: of the document as it is; stated_sha256: as it says. reproduced: both are the same
     and nothing differs."""
 
-    told: CertificateContent
+    content: CertificateContent
     worked: Worked
     sha256: str
     stated_sha256: str
@@ -90,14 +90,16 @@ def certificate(
     about: About,
     setup: Setup,
     captures: tuple[Capture, ...],
-    found: Coefficients | None,
+    unit_coefficients: Coefficients | None,
     limits: Limits,
 ) -> dict[str, Any]:
     """The file's content, plain JSON."""
-    told = CertificateContent(
-        "spindle.torque_calibration", 1, about, setup, captures, found, limits
+    content = CertificateContent(
+        "spindle.torque_calibration", 1, about, setup, captures, unit_coefficients, limits
     )
-    document = to_plain(told) | {"worked": to_plain(work_out(setup, captures, found, limits))}
+    document = to_plain(content) | {
+        "worked": to_plain(work_out(setup, captures, unit_coefficients, limits))
+    }
     return {"document": document, "sha256": sha256_of(document)}
 
 
@@ -131,24 +133,24 @@ def evaluate(body: Mapping[str, Any]) -> Evaluated:
         fault = FieldError("document", "missing", "a certificate has a document and its sha256")
         raise InvalidRequest(fault.message, "invalid_certificate", [fault])
     stated = document.get("worked")
-    told = from_plain(
+    content = from_plain(
         CertificateContent, {k: v for k, v in document.items() if k != "worked"}, _faults
     )
-    fresh = tuple(_again(capture) for capture in told.captures)
-    worked = work_out(told.setup, fresh, told.found, told.limits)
+    fresh = tuple(_again(capture) for capture in content.captures)
+    worked = work_out(content.setup, fresh, content.found, content.limits)
     differences = [
-        *_differences("captures", to_plain(told)["captures"], [to_plain(one) for one in fresh]),
+        *_differences("captures", to_plain(content)["captures"], [to_plain(one) for one in fresh]),
         *_differences("worked", stated, to_plain(worked)),
     ]
-    return Evaluated(told, worked, sha256_of(document), body["sha256"], tuple(differences))
+    return Evaluated(content, worked, sha256_of(document), body["sha256"], tuple(differences))
 
 
-def _faults(told: CertificateContent) -> list[FieldError]:
+def _faults(content: CertificateContent) -> list[FieldError]:
     faults = [
         FieldError(f"setup.{fault.field}", fault.code, fault.message)
-        for fault in faults_of(told.setup)
+        for fault in faults_of(content.setup)
     ]
-    for index, capture in enumerate(told.captures):
+    for index, capture in enumerate(content.captures):
         faults += [
             FieldError(f"captures[{index}].{fault.field}", fault.code, fault.message)
             for fault in faults_of_capture(capture)

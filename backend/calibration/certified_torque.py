@@ -42,13 +42,15 @@ class CertifiedTorque:
                 continue
             gain = float(written["record"][GAIN])
             # None where the gain was changed on the ride.
-            told = config.get(GAIN) if source == "ride" else gain
-            if told is None or not math.isclose(gain, float(told), rel_tol=FLOAT32_SHARE):
+            gain_in_force = config.get(GAIN) if source == "ride" else gain
+            if gain_in_force is None or not math.isclose(
+                gain, float(gain_in_force), rel_tol=FLOAT32_SHARE
+            ):
                 return None
-            kept = job.body["certificate"]
-            budget = from_plain(Budget, kept["worked"]["budget"])
+            certificate = job.body["certificate"]
+            budget = from_plain(Budget, certificate["worked"]["budget"])
             share = budget.expanded_at(torque_nm) / torque_nm
             return CertificateOfTorque(
-                job.id, kept["sha256"], utc(written["at_us"]), torque_nm, share
+                job.id, certificate["sha256"], utc(written["at_us"]), torque_nm, share
             )
         return None

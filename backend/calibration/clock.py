@@ -15,13 +15,13 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
-from backend.calibration.files import KeptCalibration, KeptCapture
+from backend.calibration.files import StoredCalibration, StoredCapture
 from backend.calibration.job import is_written
 from backend.calibration.records import CalibrationStore
 from backend.core.moments import set_by_us
 from backend.device.host_clock import wall_offset_us
 
-Kept = tuple[KeptCalibration, Sequence[KeptCapture]]
+OpenJob = tuple[StoredCalibration, Sequence[StoredCapture]]
 
 DATES = frozenset({"at_us", "at_utc_us", "fitted_us"})
 
@@ -67,7 +67,9 @@ class JobDates:
         self._since_us += by_us
 
 
-def redated(jump: Jump, job: KeptCalibration, captures: Sequence[KeptCapture]) -> Kept | None:
+def redated(
+    jump: Jump, job: StoredCalibration, captures: Sequence[StoredCapture]
+) -> OpenJob | None:
     """An open job by the clock as it is now; None where none of its dates is wrong."""
     moved_job = replace(job, opened_us=jump.moved(job.opened_us), body=moved(job.body, jump))
     moved_captures = [
@@ -76,17 +78,17 @@ def redated(jump: Jump, job: KeptCalibration, captures: Sequence[KeptCapture]) -
     if moved_job == job and moved_captures == list(captures):
         return None
     dated = not (is_written(job.body) or job.body["pending"] is not None)
-    told = {"at_us": jump.to_us + jump.by_us, "by_us": jump.by_us, "dated": dated}
-    kept_job, kept_captures = (moved_job, moved_captures) if dated else (job, captures)
-    marked = {**kept_job.body, "clock_set": [*job.body.get("clock_set", ()), told]}
-    return replace(kept_job, body=marked), kept_captures
+    entry = {"at_us": jump.to_us + jump.by_us, "by_us": jump.by_us, "dated": dated}
+    dated_job, dated_captures = (moved_job, moved_captures) if dated else (job, captures)
+    marked = {**dated_job.body, "clock_set": [*job.body.get("clock_set", ()), entry]}
+    return replace(dated_job, body=marked), dated_captures
 
 
-def moved(told: Any, jump: Jump) -> Any:
+def moved(content: Any, jump: Jump) -> Any:
     """Plain JSON with its dates moved."""
-    if isinstance(told, Mapping):
+    if isinstance(content, Mapping):
         return {
             name: jump.moved(value) if name in DATES and value is not None else moved(value, jump)
-            for name, value in told.items()
+            for name, value in content.items()
         }
-    return [moved(one, jump) for one in told] if isinstance(told, list) else told
+    return [moved(one, jump) for one in content] if isinstance(content, list) else content

@@ -15,7 +15,7 @@ from typing import Any
 from backend.calibration.capture import Capture
 from backend.calibration.certificate import About, certificate
 from backend.calibration.coefficients import Coefficients
-from backend.calibration.files import KeptCalibration, KeptCapture
+from backend.calibration.files import StoredCalibration, StoredCapture
 from backend.calibration.job import Body, counting, is_written, require_setup, setup_in
 from backend.calibration.judgement import Limits
 from backend.calibration.plain import from_plain, to_plain
@@ -35,7 +35,7 @@ from backend.calibration.worked import Worked, work_out
 from backend.core.moments import utc, utc_or_none
 
 
-def about_json(job: KeptCalibration, software: str) -> dict[str, Any]:
+def about_json(job: StoredCalibration, software: str) -> dict[str, Any]:
     """Whose certificate it is, as it is at the fit."""
     unit = job.body["unit"]
     return {
@@ -53,7 +53,7 @@ def about_json(job: KeptCalibration, software: str) -> dict[str, Any]:
 
 
 def certificate_of(
-    job: KeptCalibration, captures: Sequence[Capture], software: str
+    job: StoredCalibration, captures: Sequence[Capture], software: str
 ) -> dict[str, Any] | None:
     """What the captures that count come to, as a file; None before a fit.
 
@@ -65,12 +65,12 @@ def certificate_of(
     about = about_json(job, software) if written is None else written["about"]
     about = from_plain(About, {name: value for name, value in about.items() if value is not None})
     limits = limits_in(job.body)
-    setup, found = require_setup(job.body), coefficients_of(job.body["found"])
-    made = certificate(about, setup, tuple(captures), found, limits)
+    setup, unit_coefficients = require_setup(job.body), coefficients_of(job.body["found"])
+    made = certificate(about, setup, tuple(captures), unit_coefficients, limits)
     if written is None:
         return made
-    told = {"sha256": written["sha256"], "worked": written["worked"]}
-    return {**made, "written": told}
+    written_part = {"sha256": written["sha256"], "worked": written["worked"]}
+    return {**made, "written": written_part}
 
 
 def limits_in(body: Body) -> Limits:
@@ -81,15 +81,15 @@ def limits_in(body: Body) -> Limits:
 def written_part(made: Body) -> dict[str, Any]:
     """What a job keeps of the certificate that it wrote."""
     document = made["document"]
-    kept = {name: document[name] for name in ("about", "worked")}
-    return {**kept, "sha256": made["sha256"]}
+    parts = {name: document[name] for name in ("about", "worked")}
+    return {**parts, "sha256": made["sha256"]}
 
 
 SAME = 1e-6
 """As a share: parameters are 32 bit, and equal to a part in ten million."""
 
 
-def worked_of(body: Body, captures: Sequence[KeptCapture]) -> Worked | None:
+def worked_of(body: Body, captures: Sequence[StoredCapture]) -> Worked | None:
     """All that follows from a job's setup and captures; None before both are there."""
     setup, counted = setup_in(body), counting(captures)
     if setup is None or not counted:
@@ -97,13 +97,13 @@ def worked_of(body: Body, captures: Sequence[KeptCapture]) -> Worked | None:
     return work_out(setup, counted, coefficients_of(body["found"]), limits_in(body))
 
 
-def state_of(job: KeptCalibration, worked: Worked | None) -> JobState:
+def state_of(job: StoredCalibration, worked: Worked | None) -> JobState:
     """Where a job stands, as of Job."""
     if job.closed_us is not None:
         return "closed"
     if is_written(job.body):
-        seen = worked is not None and any(entry.unseen for entry in worked.verifications)
-        return "verified" if seen else "written"
+        has_unseen = worked is not None and any(entry.unseen for entry in worked.verifications)
+        return "verified" if has_unseen else "written"
     if job.body["setup"] is None:
         return "setup"
     return "capturing" if job.body["fitted_us"] is None else "fitted"
@@ -132,14 +132,14 @@ def result_json(result: Result) -> dict[str, Any]:
 
 def result_in(body: Body) -> Result:
     """The result of a closed job; nothing of an open one."""
-    told = body["result"]
-    if told is None:
+    result = body["result"]
+    if result is None:
         return Result()
-    past = None if told["past"] is None else from_plain(Past, told["past"])
-    return Result(**{**told, "past": past})
+    past = None if result["past"] is None else from_plain(Past, result["past"])
+    return Result(**{**result, "past": past})
 
 
-def summary_of(job: KeptCalibration, worked: Worked | None = None) -> JobSummary:
+def summary_of(job: StoredCalibration, worked: Worked | None = None) -> JobSummary:
     """One line of a list. worked: of an open job whose state is told to the end."""
     return JobSummary(
         id=job.id,
@@ -157,13 +157,13 @@ def summary_of(job: KeptCalibration, worked: Worked | None = None) -> JobSummary
 
 
 def capture_views(
-    body: Body, captures: Sequence[KeptCapture], worked: Worked | None
+    body: Body, captures: Sequence[StoredCapture], worked: Worked | None
 ) -> Iterator[CaptureTold]:
     """All of them, struck ones too; a job has no capture before its setup."""
     setup = setup_in(body)
     if setup is None:
         return
-    found = coefficients_of(body["found"])
+    unit_coefficients = coefficients_of(body["found"])
     fitted = worked.fit.coefficients if worked is not None and worked.fit is not None else None
     refusals = () if worked is None else worked.refusals
     for one in captures:
@@ -178,7 +178,7 @@ def capture_views(
             rejected=len(capture.rejected),
             duration_s=capture.duration_s,
             at=utc(capture.at_utc_us),
-            found_nm=reading_nm(found, capture.mean_counts, capture.state.sensor_degc),
+            found_nm=reading_nm(unit_coefficients, capture.mean_counts, capture.state.sensor_degc),
             fitted_nm=reading_nm(fitted, capture.mean_counts, capture.state.sensor_degc),
             unit_nm=body["unit_nm"].get(str(capture.number)),
             struck=None
@@ -198,17 +198,17 @@ def reading_nm(
     """One reading by coefficients; None where either is not there."""
     if coefficients is None or counts is None:
         return None
-    known = None if degc is None else [degc]
-    return float(coefficients.torque_nm([counts], known)[0])
+    temperatures = None if degc is None else [degc]
+    return float(coefficients.torque_nm([counts], temperatures)[0])
 
 
 def record_lines(body: Body, planned: Body | None) -> Iterator[RecordLine]:
     """The unit's record as it was found, beside what is to be written."""
-    for name, found in body["found"].items():
+    for name, stored in body["found"].items():
         value = None if planned is None else planned.get(name)
         low, high = body["free"].get(name, (None, None))
         beyond = value is not None and low is not None and not low <= value <= high
-        yield RecordLine(name, found, value, low, high, beyond)
+        yield RecordLine(name, stored, value, low, high, beyond)
 
 
 def record_changes(body: Body) -> tuple[RecordChange, ...]:

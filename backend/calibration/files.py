@@ -19,7 +19,7 @@ from sqlalchemy import Connection, insert, select
 
 from backend.core.author import AuthorProof
 from backend.errors import StoreError
-from backend.store.bikes import known_unit
+from backend.store.bikes import bike_of_unit
 from backend.store.objects import CALIBRATING, FileObjects, Objects
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database
@@ -30,7 +30,7 @@ DOCUMENT, JOB = "document", "job"
 
 
 @dataclass(frozen=True)
-class KeptCapture:
+class StoredCapture:
     """One capture. number: from 1 in its calibration, never used again. body: plain JSON.
 
     struck: why, by whom and when it was struck out; None while it counts.
@@ -42,7 +42,7 @@ class KeptCapture:
 
 
 @dataclass(frozen=True)
-class KeptCalibration:
+class StoredCalibration:
     """A job. body: all that is known of it but its captures, plain JSON. model: of the unit.
 
     closed_us: None while it is open. sha256: of the bytes of the closed one's file. bike: its name
@@ -63,12 +63,12 @@ class KeptCalibration:
 
 
 def document_of(
-    job: KeptCalibration, apart: tuple[KeptCapture, ...], certificate: Body | None
+    job: StoredCalibration, uncounted: tuple[StoredCapture, ...], certificate: Body | None
 ) -> dict[str, Any]:
     """A closed job's file: the certificate, if there is one, and what brings the job back.
 
     certificate: as calibration.describe makes it; its document holds the captures that count.
-    apart: the captures that are not in it.
+    uncounted: the captures that are not in it.
     """
     return {
         **({DOCUMENT: None} if certificate is None else certificate),
@@ -80,12 +80,12 @@ def document_of(
             "author_proof": job.author_proof,
             "opened_us": job.opened_us,
             "closed_us": job.closed_us,
-            "captures": [asdict(capture) for capture in apart],
+            "captures": [asdict(capture) for capture in uncounted],
         },
     }
 
 
-def told_captures(file: Body) -> Sequence[Body]:
+def captures_in(file: Body) -> Sequence[Body]:
     """The captures in the document of a file or certificate."""
     captures: Sequence[Body] = (file.get(DOCUMENT) or {"captures": ()})["captures"]
     return captures
@@ -99,7 +99,9 @@ def open_key(unit_key: str) -> str:
     return f"{CALIBRATING}/{sha256(unit_key.encode()).hexdigest()}.json"
 
 
-def keep_open(objects: Objects, job: KeptCalibration, captures: tuple[KeptCapture, ...]) -> None:
+def write_open(
+    objects: Objects, job: StoredCalibration, captures: tuple[StoredCapture, ...]
+) -> None:
     """Write an open job with all its captures, in place of what was there. Raises StoreError."""
     objects.publish_json(open_key(job.unit_key), document_of(job, captures, None))
 
@@ -139,7 +141,7 @@ def bring_back_calibration(database: Database, objects: FileObjects, key: str) -
     def work(connection: Connection) -> bool:
         if connection.execute(select(t.calibration.c.id).where(same)).first() is not None:
             return False
-        bike_id = known_unit(connection, job["unit_key"])
+        bike_id = bike_of_unit(connection, job["unit_key"])
         made = insert(t.calibration).values(**job, bike_id=bike_id)
         job_id = connection.execute(made.returning(t.calibration.c.id)).scalar_one()
         for row in captures:
@@ -170,6 +172,8 @@ def job_row(document: Mapping[str, Any]) -> dict[str, Any]:
 
 def capture_rows(document: Mapping[str, Any]) -> list[dict[str, Any]]:
     """Every capture of a file: those of its certificate, and those it leaves out."""
-    told = [{"number": one["number"], "body": one} for one in told_captures(document)]
-    apart = document[JOB]["captures"]
-    return told + [{name: one[name] for name in ("number", "body", "struck")} for one in apart]
+    counted = [{"number": one["number"], "body": one} for one in captures_in(document)]
+    uncounted = document[JOB]["captures"]
+    return counted + [
+        {name: one[name] for name in ("number", "body", "struck")} for one in uncounted
+    ]

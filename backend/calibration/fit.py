@@ -122,8 +122,8 @@ def data_of(setup: Setup, captures: Sequence[Capture]) -> Data:
     states = [capture.state for capture in used]
     own = [capture.deviation_counts**2 / capture.count for capture in used]
     degc = [state.sensor_degc for state in states if state.sensor_degc is not None]
-    told = bool(used) and len(degc) == len(used)
-    reference = round(float(np.mean(degc)), 1) if told else None
+    has_temperature = bool(used) and len(degc) == len(used)
+    reference = round(float(np.mean(degc)), 1) if has_temperature else None
     return Data(
         tuple(capture.number for capture in used),
         np.array([state.load_nm(setup) for state in states]),
@@ -133,7 +133,7 @@ def data_of(setup: Setup, captures: Sequence[Capture]) -> Data:
         np.array([{"right": 1.0, "left": -1.0, None: 0.0}[state.side] for state in states]),
         np.array(degc) - reference if reference is not None else np.zeros(len(used)),
         reference,
-        float(np.ptp(degc)) if told else None,
+        float(np.ptp(degc)) if has_temperature else None,
     )
 
 
@@ -147,20 +147,20 @@ def fit(setup: Setup, captures: Sequence[Capture]) -> Fit:
         message = f"a fit needs more than {number} captures, at two loads or more"
         raise InvalidRequest(message, "too_few_captures")
     start = np.array([line[1], line[0], 0.0, 0.0])[:number]
-    found = _solved(start, data)
-    jacobian, weights = _jacobian(found.values, data), 1 / (data.own_variance + found.extra)
+    solution = _solved(start, data)
+    jacobian, weights = _jacobian(solution.values, data), 1 / (data.own_variance + solution.extra)
     inverse = np.linalg.inv(jacobian.T @ (jacobian * weights[:, None]))
     # From counts per newton metre to newton metres per count.
-    counts_per_nm = float(found.values[1])
+    counts_per_nm = float(solution.values[1])
     turn = np.ones(number)
     turn[1] = -1 / counts_per_nm**2
     covariance = inverse * np.outer(turn, turn)
     gain = inverse @ (jacobian * weights[:, None]).T * turn[:, None]
     coefficients = Coefficients(
-        float(found.values[0]),
+        float(solution.values[0]),
         1 / counts_per_nm,
-        float(found.values[2]) if number > 2 else None,
-        float(found.values[3]) if number > 3 else None,
+        float(solution.values[2]) if number > 2 else None,
+        float(solution.values[3]) if number > 3 else None,
         data.reference_degc,
     )
     return Fit(
@@ -171,7 +171,7 @@ def fit(setup: Setup, captures: Sequence[Capture]) -> Fit:
             Common(cause, tuple(float(value) for value in gain @ (shift * counts_per_nm)))
             for cause, shift in common_shifts_nm(setup, data, number)
         ),
-        repeatability_nm=math.sqrt(found.extra) / counts_per_nm,
+        repeatability_nm=math.sqrt(solution.extra) / counts_per_nm,
         degrees_of_freedom=data.counts.size - number,
         temperature=temperature,
         temperature_span_k=data.span_k,
@@ -205,12 +205,12 @@ def common_shifts_nm(setup: Setup, data: Data, number: int) -> list[tuple[str, N
     return shifts
 
 
-class _Found(NamedTuple):
+class _Solution(NamedTuple):
     values: Numbers
     extra: float  # variance of the repeatability, counts squared
 
 
-def _solved(start: Numbers, data: Data) -> _Found:
+def _solved(start: Numbers, data: Data) -> _Solution:
     """Gauss and Newton inside, the repeatability outside."""
     values = _newton(start, data, 1 / (data.own_variance + data.own_variance.mean()))
 
@@ -221,7 +221,7 @@ def _solved(start: Numbers, data: Data) -> _Found:
 
     left = data.counts - _model(values, data)
     extra = beyond_own(squares, data.counts.size - values.size, float(left @ left))
-    return _Found(_newton(values, data, 1 / (data.own_variance + extra)), extra)
+    return _Solution(_newton(values, data, 1 / (data.own_variance + extra)), extra)
 
 
 def _newton(values: Numbers, data: Data, weights: Numbers) -> Numbers:
@@ -236,9 +236,9 @@ def _newton(values: Numbers, data: Data, weights: Numbers) -> Numbers:
 
 def _model(values: Numbers, data: Data) -> Numbers:
     offset, counts_per_nm, per_k, share = np.pad(values, (0, 4 - values.size))
-    seen = counts_per_nm * data.load_nm / (1 + share * data.warmer_k)
-    told: Numbers = offset + per_k * data.warmer_k + seen
-    return told
+    signal = counts_per_nm * data.load_nm / (1 + share * data.warmer_k)
+    modelled: Numbers = offset + per_k * data.warmer_k + signal
+    return modelled
 
 
 def _jacobian(values: Numbers, data: Data) -> Numbers:
@@ -268,6 +268,6 @@ def _residuals(coefficients: Coefficients, data: Data) -> tuple[Residual, ...]:
     degc = None if reference is None else data.warmer_k + reference
     reading = coefficients.torque_nm(data.counts, degc)
     return tuple(
-        Residual(number, float(load), float(seen), float(seen - load))
-        for number, load, seen in zip(data.numbers, data.load_nm, reading, strict=True)
+        Residual(number, float(load), float(read), float(read - load))
+        for number, load, read in zip(data.numbers, data.load_nm, reading, strict=True)
     )

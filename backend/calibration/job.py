@@ -20,7 +20,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from backend.calibration.capture import Capture, State
-from backend.calibration.files import KeptCapture
+from backend.calibration.files import StoredCapture
 from backend.calibration.plain import from_plain
 from backend.calibration.setup import Setup
 from backend.calibration.types import Step
@@ -31,11 +31,11 @@ Body = Mapping[str, Any]
 WRITE, RESTORE = "write", "restore"
 
 
-def new_body(unit: Body, found: Body, free: Body, limits: Body) -> dict[str, Any]:
+def new_body(unit: Body, record: Body, free: Body, limits: Body) -> dict[str, Any]:
     """Of a job that is just opened."""
     return {
         "unit": dict(unit),
-        "found": dict(found),
+        "found": dict(record),
         "free": dict(free),
         "limits": dict(limits),
         "setup": None,
@@ -55,13 +55,13 @@ def setup_in(body: Body) -> Setup | None:
 
 def require_setup(body: Body) -> Setup:
     """The setup. Raises Conflict before there is one."""
-    found = setup_in(body)
-    if found is None:
+    setup = setup_in(body)
+    if setup is None:
         raise Conflict("The calibration has no setup yet: arm, gravity and masses.", "no_setup")
-    return found
+    return setup
 
 
-def counting(captures: Sequence[KeptCapture]) -> list[Capture]:
+def counting(captures: Sequence[StoredCapture]) -> list[Capture]:
     """Those that are not struck out."""
     return [from_plain(Capture, one.body) for one in captures if one.struck is None]
 

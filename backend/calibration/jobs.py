@@ -15,10 +15,10 @@ from typing import Any
 from backend.calibration import job as kept
 from backend.calibration.capture import State, capture_of
 from backend.calibration.describe import worked_of
-from backend.calibration.files import KeptCalibration
+from backend.calibration.files import StoredCalibration
 from backend.calibration.judgement import Limits, limits_for
 from backend.calibration.plain import to_plain
-from backend.calibration.reading import NOT_HEARD, Look, Readings, look
+from backend.calibration.reading import NO_READINGS, Readings, SteadyWindow, newest_window
 from backend.calibration.records import CalibrationStore
 from backend.calibration.setup import Setup, setup_of
 from backend.calibration.steady import WINDOW_S
@@ -64,7 +64,7 @@ class CalibrationJobs:
         identity = self._devices.get(device_id).identity
         parameters = config.parameters
         model = identity.model if identity else None
-        told: dict[str, Any] = {
+        facts: dict[str, Any] = {
             "serial_number": identity.serial_number if identity else None,
             "model": model,
             "firmware_version": identity.firmware_version if identity else None,
@@ -79,12 +79,12 @@ class CalibrationJobs:
             and (band := unit.parameters.free_of(name, parameters)) is not None
         }
         free = {name: [band.min, band.max] for name, band in bands.items()}
-        limits = to_plain(limits_for(told["market"], model, self._limits))
-        body = kept.new_body(told, record_of(parameters), free, limits)
+        limits = to_plain(limits_for(facts["market"], model, self._limits))
+        body = kept.new_body(facts, record_of(parameters), free, limits)
         job, is_new = self._store.open(key, model, body, author)
         return job.id, is_new
 
-    def connection(self, job: KeptCalibration) -> Device | None:
+    def connection(self, job: StoredCalibration) -> Device | None:
         """The connection a job's unit is on now, ready to be asked; None while it is on none."""
         return next(
             (
@@ -95,7 +95,7 @@ class CalibrationJobs:
             None,
         )
 
-    def connected(self, job: KeptCalibration) -> str:
+    def connected(self, job: StoredCalibration) -> str:
         """As `connection`, its id. Raises Conflict."""
         device = self.connection(job)
         if device is None:
@@ -142,14 +142,14 @@ class CalibrationJobs:
         if state.kind == "zero" and not pedals_free:
             self._require_no_foot(device_id)
         with self._capturing:
-            seen = self._steady(device_id, setup)
+            window = self._steady(device_id, setup)
             at_us = int(self._now_s() * 1e6)
 
             def make(number: int, body: kept.Body) -> tuple[kept.Body, kept.Body]:
-                known = {name: getattr(state, name) for name in State.__slots__}
-                whole = State(**{**known, "sensor_degc": seen.sensor_degc})
-                made = capture_of(number, whole, seen.raw_counts, seen.duration_s, at_us)
-                unit_nm = {**body["unit_nm"], str(number): seen.unit_nm}
+                given = {name: getattr(state, name) for name in State.__slots__}
+                state_now = State(**{**given, "sensor_degc": window.sensor_degc})
+                made = capture_of(number, state_now, window.raw_counts, window.duration_s, at_us)
+                unit_nm = {**body["unit_nm"], str(number): window.unit_nm}
                 fitted_us = body["fitted_us"] if state.kind == "verify" else None
                 return to_plain(made), {**body, "unit_nm": unit_nm, "fitted_us": fitted_us}
 
@@ -207,16 +207,16 @@ class CalibrationJobs:
 
     # ------------------------------------------------------------------ inside
 
-    def _steady(self, device_id: str, setup: Setup) -> Look:
+    def _steady(self, device_id: str, setup: Setup) -> SteadyWindow:
         """The newest window. Raises Conflict with every reason why it is none."""
         recent = self._readings.untaken(device_id)
-        seen = None if recent is None else look(recent, setup)
-        reasons = (NOT_HEARD,) if seen is None else seen.reasons
-        if seen is None or reasons:
+        window = None if recent is None else newest_window(recent, setup)
+        reasons = (NO_READINGS,) if window is None else window.reasons
+        if window is None or reasons:
             faults = [FieldError("readings", one.code, one.sentence) for one in reasons]
             message = "; ".join(fault.message for fault in faults)
             raise Conflict(f"Not steady for {WINDOW_S:g} s: {message}.", "not_steady", faults)
-        return seen
+        return window
 
     def _require_no_foot(self, device_id: str) -> None:
         if FOOT in self._devices.get(device_id).faults_active:

@@ -65,14 +65,14 @@ DEFAULTS: tuple[Limits, ...] = (
 )
 
 
-def limits_table(told: Sequence[Any]) -> tuple[Limits, ...]:
-    """The house's own limits before the examples. told: plain tables.
+def limits_table(entries: Sequence[Any]) -> tuple[Limits, ...]:
+    """The house's own limits before the examples. entries: plain tables.
 
     Raises InvalidRequest for one that is no limits, that does not say whose it is, or that is for
     the same bikes as another.
     """
     own: dict[tuple[str | None, str | None], Limits] = {}
-    for number, table in enumerate(told, 1):
+    for number, table in enumerate(entries, 1):
         limits = from_plain(Limits, table)
         if "made_gain_pct" not in table:
             limits = replace(limits, made_gain_pct=MADE_GAIN_PCT)
@@ -94,9 +94,9 @@ def limits_for(market: str | None, model: str | None, table: Sequence[Limits] = 
 
     Raises nothing: a table without an entry for anybody falls back to the example limits.
     """
-    for wanted in ((market, model), (None, model), (market, None), (None, None)):
+    for key in ((market, model), (None, model), (market, None), (None, None)):
         for entry in table:
-            if (entry.market, entry.model) == wanted:
+            if (entry.market, entry.model) == key:
                 return entry
     return DEFAULTS[0]
 
@@ -211,8 +211,8 @@ def _figures(evidence: Evidence, limits: Limits) -> Iterator[Cause]:
 
 def _uncertainty(evidence: Evidence, budget: Budget, limits: Limits) -> Iterator[Cause]:
     percent = 100 / evidence.setup.full_scale_nm
-    whole = max(budget.expanded_nm) * percent
-    yield from _over("uncertainty", "expanded uncertainty", whole, limits.expanded_pct)
+    expanded = max(budget.expanded_nm) * percent
+    yield from _over("uncertainty", "expanded uncertainty", expanded, limits.expanded_pct)
     shared = [entry.standard_nm[-1] for entry in budget.contributions if entry.cause in REFERENCE]
     loads = 2 * sum(value**2 for value in shared) ** 0.5 * percent
     yield from _over("reference", "masses and arm leave open", loads, limits.reference_pct)
@@ -223,16 +223,16 @@ def _uncertainty(evidence: Evidence, budget: Budget, limits: Limits) -> Iterator
 
 
 def _asymmetry(evidence: Evidence, limits: Limits) -> Iterator[Cause]:
-    found = evidence.asymmetry
-    if found is None:
+    asymmetry = evidence.asymmetry
+    if asymmetry is None:
         yield Cause("no_left_right", "conditional", "loads on both pedals are needed")
         return
-    if found.bending_across is None:
+    if asymmetry.bending_across is None:
         words = "the captures cover too little of the crank's angle to tell a bending"
         yield Cause("no_angles", "note", words)
     for code, words, share, allowed in (
-        ("left_right", "left against right", found.left_right, limits.left_right_pct),
-        ("bending", "bending across the crank", found.bending_across, limits.bending_pct),
+        ("left_right", "left against right", asymmetry.left_right, limits.left_right_pct),
+        ("bending", "bending across the crank", asymmetry.bending_across, limits.bending_pct),
     ):
         if share is not None:
             figure, expanded = 100 * abs(share.share), 200 * share.standard

@@ -85,19 +85,19 @@ def _standing(measured: Measured) -> Check:
     if not turning:
         return Check("standing", None, "nothing turns: the unit does not tell", None, None)
     units = {"wheel_kmh": "wheel {:.1f} km/h", "cadence_rpm": "crank {:.0f} rpm"}
-    told = ", ".join(
+    sentence = ", ".join(
         units.get(name, "motor {:.0f} rpm").format(value) for name, value in turning.items()
     )
     standing = not any(turning.values())
-    return Check("standing", standing, f"nothing turns: {told}", None, None, turning)
+    return Check("standing", standing, f"nothing turns: {sentence}", None, None, turning)
 
 
 def _at_most(code: str, figure: float | None, allowed: float, unit: str, sentence: str) -> Check:
     if figure is None:
         return Check(code, None, f"{sentence}: the unit does not tell", None, allowed)
     passed = figure <= allowed
-    told = f"{sentence}: {figure:.1f} {unit}, {allowed:g} is allowed"
-    return Check(code, passed, told, figure, allowed)
+    text = f"{sentence}: {figure:.1f} {unit}, {allowed:g} is allowed"
+    return Check(code, passed, text, figure, allowed)
 
 
 def _supply(measured: Measured) -> Check:

@@ -21,22 +21,22 @@ from backend.calibration.types import Reading
 from backend.calibration.unit_record import coefficients_of
 from backend.units.types import Device
 
-LOOK_S = 0.5
+STEADY_STEP_S = 0.5
 """How finely it is told since when the readings are steady."""
 
 MISSING_SHARE_MAX = 0.05
 """As many readings may be missing as may be damaged."""
 
-NOT_HEARD = Refusal("no_readings", "the unit is not heard, or it sends no raw counts")
+NO_READINGS = Refusal("no_readings", "the unit is not heard, or it sends no raw counts")
 
 
 @dataclass(frozen=True)
-class Look:
+class SteadyWindow:
     """The newest window and what is said of it. raw_counts: (n,), missing ones left out."""
 
     raw_counts: tuple[int, ...]
     duration_s: float
-    found: Steadiness | None
+    steadiness: Steadiness | None
     reasons: tuple[Refusal, ...]
     sensor_degc: float | None
     unit_nm: float | None
@@ -47,23 +47,23 @@ class Look:
         return not self.reasons
 
 
-def look(recent: Recent, setup: Setup) -> Look:
+def newest_window(recent: Recent, setup: Setup) -> SteadyWindow:
     """At the newest window of what was not captured yet."""
     window = recent.last(WINDOW_S)
-    raw = tuple(int(value) for value in window.known(RAW))
-    degc = window.known(SENSOR_DEGC)
-    found = steadiness(Window(raw, window.duration_s, degc.tolist()), setup)
+    raw = tuple(int(value) for value in window.finite(RAW))
+    degc = window.finite(SENSOR_DEGC)
+    result = steadiness(Window(raw, window.duration_s, degc.tolist()), setup)
     reasons = [*_turning(window), *_missing(window, len(raw))]
-    if found is None:
+    if result is None:
         needed: dict[str, float | str] = {"needed_s": WINDOW_S}
         sentence = f"{window.duration_s:.1f} s so far, {WINDOW_S:g} s are needed"
         reasons.append(Refusal("too_short", sentence, window.duration_s, needed))
     else:
-        reasons += found.reasons
-    return Look(
+        reasons += result.reasons
+    return SteadyWindow(
         raw,
         window.duration_s,
-        found,
+        result,
         tuple(reasons),
         float(degc.mean()) if degc.size else None,
         window.mean(TORQUE),
@@ -73,9 +73,9 @@ def look(recent: Recent, setup: Setup) -> Look:
 def steady_s(recent: Recent, setup: Setup) -> float:
     """For how long the readings are such that a capture could be taken, looked at backwards."""
     back_s = 0.0
-    while back_s < recent.duration_s and look(recent.before(back_s), setup).steady:
-        back_s += LOOK_S
-    return 0.0 if back_s == 0.0 else WINDOW_S + back_s - LOOK_S
+    while back_s < recent.duration_s and newest_window(recent.before(back_s), setup).steady:
+        back_s += STEADY_STEP_S
+    return 0.0 if back_s == 0.0 else WINDOW_S + back_s - STEADY_STEP_S
 
 
 def measured(recent: Recent, idle_nm: float | None, battery_min_v: float | None) -> Measured:
@@ -94,15 +94,15 @@ def measured(recent: Recent, idle_nm: float | None, battery_min_v: float | None)
 def checks_of(now: Measured, faults: Sequence[str]) -> tuple[Check, ...]:
     """The prechecks, and that the unit tells of no fault."""
     names = ", ".join(faults)
-    told = f"no fault: {names}" if faults else "no fault"
+    sentence = f"no fault: {names}" if faults else "no fault"
     values: dict[str, float | str] = {"names": names}
-    return (*prechecks(now), Check("faults", not faults, told, float(len(faults)), 0.0, values))
+    return (*prechecks(now), Check("faults", not faults, sentence, float(len(faults)), 0.0, values))
 
 
 def _turning(window: Recent) -> list[Refusal]:
     """A crank or wheel that turns in the window moves the load's arm, or is a rider."""
     turned: dict[str, float | str] = {
-        name: float(np.abs(window.known(name)).max(initial=0.0))
+        name: float(np.abs(window.finite(name)).max(initial=0.0))
         for name in ("speed_kmh", "cadence_rpm")
     }
     if not any(turned.values()):
@@ -113,8 +113,8 @@ def _turning(window: Recent) -> list[Refusal]:
     return [Refusal("turning", sentence, values=turned)]
 
 
-def _missing(window: Recent, known: int) -> list[Refusal]:
-    lost = window.t_us.size - known
+def _missing(window: Recent, readings: int) -> list[Refusal]:
+    lost = window.t_us.size - readings
     if lost <= MISSING_SHARE_MAX * window.t_us.size:
         return []
     sentence = f"{lost} of {window.t_us.size} readings did not come from the sensor"
@@ -164,29 +164,35 @@ class Readings:
         shown = None if device is None else self.recent.of(device.id)
         if device is None or recent is None or shown is None:
             return silent(None if device is None else device.id)
-        found = coefficients_of(body["found"])
+        unit_coefficients = coefficients_of(body["found"])
         checks = self.checks(device, body)
         if setup is None:
             newest = recent.newest(RAW)
             degc = recent.newest(SENSOR_DEGC)
-            return told(device.id, shown, checks, found_nm=reading_nm(found, newest, degc))
-        seen = look(recent, setup)
-        mean = None if seen.found is None else seen.found.mean_counts
-        return told(
+            return reading_of(
+                device.id, shown, checks, found_nm=reading_nm(unit_coefficients, newest, degc)
+            )
+        window = newest_window(recent, setup)
+        mean = None if window.steadiness is None else window.steadiness.mean_counts
+        return reading_of(
             device.id,
             shown,
             checks,
-            steady=seen.steady,
+            steady=window.steady,
             steady_s=steady_s(recent, setup),
-            reasons=seen.reasons,
+            reasons=window.reasons,
             mean_counts=mean,
-            deviation_counts=None if seen.found is None else seen.found.deviation_counts,
-            spread_counts=None if seen.found is None else seen.found.spread_counts,
-            spread_allowed_counts=None if seen.found is None else seen.found.spread_allowed_counts,
-            window_s=seen.duration_s,
-            found_nm=reading_nm(found, mean, seen.sensor_degc),
-            fitted_nm=reading_nm(fitted, mean, seen.sensor_degc),
-            unit_nm=seen.unit_nm,
+            deviation_counts=None
+            if window.steadiness is None
+            else window.steadiness.deviation_counts,
+            spread_counts=None if window.steadiness is None else window.steadiness.spread_counts,
+            spread_allowed_counts=None
+            if window.steadiness is None
+            else window.steadiness.spread_allowed_counts,
+            window_s=window.duration_s,
+            found_nm=reading_nm(unit_coefficients, mean, window.sensor_degc),
+            fitted_nm=reading_nm(fitted, mean, window.sensor_degc),
+            unit_nm=window.unit_nm,
         )
 
     def checks(self, device: Device, body: Body) -> tuple[Check, ...]:
@@ -195,8 +201,8 @@ class Readings:
         if recent is None:
             return ()
         newest = recent.last(IDLE_S)
-        found = coefficients_of(body["found"])
-        idle_nm = reading_nm(found, newest.mean(RAW), newest.mean(SENSOR_DEGC))
+        unit_coefficients = coefficients_of(body["found"])
+        idle_nm = reading_nm(unit_coefficients, newest.mean(RAW), newest.mean(SENSOR_DEGC))
         now = measured(recent, idle_nm, body["unit"]["battery_min_v"])
         return checks_of(now, device.faults_active)
 
@@ -207,7 +213,7 @@ def silent(device_id: str | None) -> Reading:
         device_id=device_id,
         steady=False,
         steady_s=0.0,
-        reasons=(NOT_HEARD,),
+        reasons=(NO_READINGS,),
         t_s=(),
         raw_counts=(),
         mean_counts=None,
@@ -225,7 +231,9 @@ def silent(device_id: str | None) -> Reading:
     )
 
 
-def told(device_id: str, recent: Recent, checks: tuple[Check, ...], **known: object) -> Reading:
+def reading_of(
+    device_id: str, recent: Recent, checks: tuple[Check, ...], **figures: object
+) -> Reading:
     """The last seconds thinned, with what is known of them."""
     places = np.arange(recent.t_us.size)[:: max(1, -(-recent.t_us.size // SHOWN_MAX))]
     raw = recent.values[RAW][places]
@@ -238,6 +246,6 @@ def told(device_id: str, recent: Recent, checks: tuple[Check, ...], **known: obj
         "cadence_rpm": recent.newest("cadence_rpm"),
         "speed_kmh": recent.newest("speed_kmh"),
         "checks": checks,
-        **known,
+        **figures,
     }
     return Reading(**view)

@@ -15,17 +15,17 @@ from sqlalchemy import Connection, Row, Select, func, insert, select, update
 
 from backend.calibration.files import (
     Body,
-    KeptCalibration,
-    KeptCapture,
+    StoredCalibration,
+    StoredCapture,
+    captures_in,
     document_of,
     forget_open,
-    keep_open,
-    told_captures,
+    write_open,
 )
 from backend.core.author import proof_of
 from backend.core.canonical_json import canonical_text, sha256_of
 from backend.errors import Conflict, NotFound, ObjectDamaged
-from backend.store.bikes import known_unit
+from backend.store.bikes import bike_of_unit
 from backend.store.named import calibration_key
 from backend.store.soundness import WORDS, Expected
 from backend.store.sql import tables as t
@@ -52,17 +52,17 @@ class CalibrationStore:
 
     def open(
         self, unit_key: str, model: str | None, body: Body, author: str
-    ) -> tuple[KeptCalibration, bool]:
+    ) -> tuple[StoredCalibration, bool]:
         """The open job of a unit, and whether it was made now. Raises StoreError."""
 
         def work(connection: Connection) -> tuple[int, bool]:
             mine = select(t.calibration.c.id).where(t.calibration.c.open_for == unit_key)
-            known = connection.execute(mine).scalar()
-            if known is not None:
-                return int(known), False
+            existing = connection.execute(mine).scalar()
+            if existing is not None:
+                return int(existing), False
             values = {
                 "unit_key": unit_key,
-                "bike_id": known_unit(connection, unit_key),
+                "bike_id": bike_of_unit(connection, unit_key),
                 "model": model,
                 "open_for": unit_key,
                 "body": dict(body),
@@ -72,19 +72,19 @@ class CalibrationStore:
             }
             made = insert(t.calibration).values(values).returning(t.calibration.c.id)
             job_id = int(connection.execute(made).scalar_one())
-            self._keep(connection, job_id)
+            self._write_file(connection, job_id)
             return job_id, True
 
         job_id, is_new = self._database.write(work)
         return self.get(job_id), is_new
 
-    def get(self, job_id: int) -> KeptCalibration:
+    def get(self, job_id: int) -> StoredCalibration:
         """One job. Raises NotFound."""
         return self._database.read(lambda connection: job_of(connection, job_id))
 
     def list(
         self, unit_key: str | None = None, bike_id: int | None = None, model: str | None = None
-    ) -> tuple[KeptCalibration, ...]:
+    ) -> tuple[StoredCalibration, ...]:
         """Jobs, newest first; of a unit, a bike or a model where it is named."""
         query = JOBS
         for column, value in (
@@ -97,15 +97,15 @@ class CalibrationStore:
         rows = self._database.read(lambda c: c.execute(query.limit(JOBS_MAX)).all())
         return tuple(map(job_from, rows))
 
-    def change(self, job_id: int, work: Callable[[Body], Body]) -> KeptCalibration:
+    def change(self, job_id: int, work: Callable[[Body], Body]) -> StoredCalibration:
         """Give an open job another body, made of the one it has; what `work` raises changes
         nothing. Raises NotFound, Conflict for a closed one, StoreError."""
 
-        def changed(connection: Connection) -> KeptCalibration:
+        def changed(connection: Connection) -> StoredCalibration:
             job = open_job(connection, job_id)
             body = dict(work(job.body))
             set_body(connection, job_id, body)
-            self._keep(connection, job_id)
+            self._write_file(connection, job_id)
             return replace(job, body=body)
 
         return self._database.write(changed)
@@ -113,8 +113,8 @@ class CalibrationStore:
     def redate(
         self,
         work: Callable[
-            [KeptCalibration, Sequence[KeptCapture]],
-            tuple[KeptCalibration, Sequence[KeptCapture]] | None,
+            [StoredCalibration, Sequence[StoredCapture]],
+            tuple[StoredCalibration, Sequence[StoredCapture]] | None,
         ],
     ) -> None:
         """Give open jobs and their captures other dates: all of them or none.
@@ -128,17 +128,17 @@ class CalibrationStore:
                 made = work(job_of(connection, job_id), captures_of(connection, job_id))
                 if made is not None:
                     set_dates(connection, *made)
-                    self._keep(connection, job_id)
+                    self._write_file(connection, job_id)
 
         self._database.write(done)
 
     # ------------------------------------------------------------------ captures
 
-    def captures(self, job_id: int) -> tuple[KeptCapture, ...]:
+    def captures(self, job_id: int) -> tuple[StoredCapture, ...]:
         """All of a job by number, struck ones too."""
         return self._database.read(lambda connection: captures_of(connection, job_id))
 
-    def capture(self, job_id: int, make: Callable[[int, Body], tuple[Body, Body]]) -> KeptCapture:
+    def capture(self, job_id: int, make: Callable[[int, Body], tuple[Body, Body]]) -> StoredCapture:
         """Add a capture and change the job with it, both or none. make: from the capture's number
         and the job's body, the capture and the job's body.
 
@@ -146,7 +146,7 @@ class CalibrationStore:
         """
         captures = t.calibration_capture
 
-        def added(connection: Connection) -> KeptCapture:
+        def added(connection: Connection) -> StoredCapture:
             job = open_job(connection, job_id)
             newest = select(func.max(captures.c.number)).where(captures.c.calibration_id == job_id)
             number = int(connection.execute(newest).scalar() or 0) + 1
@@ -157,33 +157,33 @@ class CalibrationStore:
             values = {"calibration_id": job_id, "number": number, "body": dict(body)}
             connection.execute(insert(captures).values(values))
             set_body(connection, job_id, changed)
-            self._keep(connection, job_id)
-            return KeptCapture(number, body)
+            self._write_file(connection, job_id)
+            return StoredCapture(number, body)
 
         return self._database.write(added)
 
     def strike(
         self, job_id: int, number: int, struck: Body, work: Callable[[Body], Body]
-    ) -> KeptCapture:
+    ) -> StoredCapture:
         """Strike a capture out and change the job with it. Once is enough: the first word stays.
 
         Raises NotFound, Conflict for a closed job, StoreError.
         """
 
-        def done(connection: Connection) -> KeptCapture:
+        def done(connection: Connection) -> StoredCapture:
             job = open_job(connection, job_id)
-            found = {one.number: one for one in captures_of(connection, job_id)}.get(number)
-            if found is None:
+            capture = {one.number: one for one in captures_of(connection, job_id)}.get(number)
+            if capture is None:
                 raise NotFound(f"Calibration {job_id} has no capture {number}.")
-            if found.struck is not None:
-                return found
+            if capture.struck is not None:
+                return capture
             row = t.calibration_capture.c
             mine = (row.calibration_id == job_id) & (row.number == number)
             changed = update(t.calibration_capture).where(mine).values(struck=dict(struck))
             connection.execute(changed)
             set_body(connection, job_id, work(job.body))
-            self._keep(connection, job_id)
-            return replace(found, struck=struck)
+            self._write_file(connection, job_id)
+            return replace(capture, struck=struck)
 
         return self._database.write(done)
 
@@ -191,7 +191,7 @@ class CalibrationStore:
 
     def close(
         self, job_id: int, work: Callable[[Body], Body], certificate: Body | None
-    ) -> KeptCalibration:
+    ) -> StoredCalibration:
         """Close a job: its file is there first, then SQL says so; after a crash between the two it
         is closed again. certificate: plain JSON with the captures that count, None without a fit.
 
@@ -199,10 +199,12 @@ class CalibrationStore:
         """
         job = self._database.read(lambda connection: open_job(connection, job_id))
         captures = self.captures(job_id)
-        told = {one["number"] for one in told_captures(certificate or {})}
+        counted = {one["number"] for one in captures_in(certificate or {})}
         job = replace(job, body=dict(work(job.body)), closed_us=now_us())
-        apart = tuple(one for one in captures if one.struck is not None or one.number not in told)
-        document = document_of(job, apart, certificate)
+        uncounted = tuple(
+            one for one in captures if one.struck is not None or one.number not in counted
+        )
+        document = document_of(job, uncounted, certificate)
         sha256 = sha256_of(document)
         with self._objects.holding():
             self._publish(calibration_key(sha256), document)
@@ -222,7 +224,7 @@ class CalibrationStore:
         forget_open(self._objects, job.unit_key)
         return replace(job, sha256=sha256)
 
-    def file(self, job: KeptCalibration) -> bytes:
+    def file(self, job: StoredCalibration) -> bytes:
         """A closed job's file, every byte verified. Raises ObjectDamaged, Conflict."""
         if job.sha256 is None:
             raise Conflict(f"Calibration {job.id} is open: it has no file yet.", "still_open")
@@ -236,9 +238,9 @@ class CalibrationStore:
         with file:
             return file.read()
 
-    def _keep(self, connection: Connection, job_id: int) -> None:
+    def _write_file(self, connection: Connection, job_id: int) -> None:
         """The last step of a transaction that changes an open job."""
-        keep_open(self._objects, job_of(connection, job_id), captures_of(connection, job_id))
+        write_open(self._objects, job_of(connection, job_id), captures_of(connection, job_id))
 
     def _publish(self, key: str, document: Mapping[str, Any]) -> None:
         staged = self._objects.stage()
@@ -250,7 +252,7 @@ class CalibrationStore:
             staged.unlink(missing_ok=True)
 
 
-def open_job(connection: Connection, job_id: int) -> KeptCalibration:
+def open_job(connection: Connection, job_id: int) -> StoredCalibration:
     """A job that may be changed. Raises NotFound, Conflict for a closed one."""
     job = job_of(connection, job_id)
     if job.closed_us is not None:
@@ -258,15 +260,15 @@ def open_job(connection: Connection, job_id: int) -> KeptCalibration:
     return job
 
 
-def job_of(connection: Connection, job_id: int) -> KeptCalibration:
+def job_of(connection: Connection, job_id: int) -> StoredCalibration:
     row = connection.execute(JOBS.where(t.calibration.c.id == job_id)).first()
     if row is None:
         raise NotFound(f"There is no calibration {job_id}.")
     return job_from(row)
 
 
-def job_from(row: Row[Any]) -> KeptCalibration:
-    return KeptCalibration(
+def job_from(row: Row[Any]) -> StoredCalibration:
+    return StoredCalibration(
         id=row.id,
         unit_key=row.unit_key,
         bike_id=row.bike_id,
@@ -281,12 +283,12 @@ def job_from(row: Row[Any]) -> KeptCalibration:
     )
 
 
-def captures_of(connection: Connection, job_id: int) -> tuple[KeptCapture, ...]:
+def captures_of(connection: Connection, job_id: int) -> tuple[StoredCapture, ...]:
     mine: Select[Any] = select(t.calibration_capture).where(
         t.calibration_capture.c.calibration_id == job_id
     )
     rows = connection.execute(mine.order_by(t.calibration_capture.c.number)).all()
-    return tuple(KeptCapture(row.number, row.body, row.struck) for row in rows)
+    return tuple(StoredCapture(row.number, row.body, row.struck) for row in rows)
 
 
 def set_body(connection: Connection, job_id: int, body: Body) -> None:
@@ -295,7 +297,7 @@ def set_body(connection: Connection, job_id: int, body: Body) -> None:
 
 
 def set_dates(
-    connection: Connection, job: KeptCalibration, captures: Sequence[KeptCapture]
+    connection: Connection, job: StoredCalibration, captures: Sequence[StoredCapture]
 ) -> None:
     mine = t.calibration.c.id == job.id
     connection.execute(update(t.calibration).where(mine).values(opened_us=job.opened_us))

@@ -18,7 +18,7 @@ from backend.device.stream import StreamBlock
 RAW, TORQUE, SENSOR_DEGC = "rider_torque_raw", "rider_torque_nm", "sensor_temperature_degc"
 STATES = ("speed_kmh", "cadence_rpm", "motor_speed_rpm", "battery_voltage_v", "crank_angle_deg")
 CHANNELS = (RAW, TORQUE, SENSOR_DEGC, *STATES)
-KEPT_US = 10_000_000
+RETAINED_US = 10_000_000
 TRAIL_S = 60
 """How far back the sensor's temperature is known: warming is judged over a minute."""
 
@@ -60,19 +60,19 @@ class Recent:
 
     def newest(self, name: str) -> float | None:
         """The last value of a channel that is one; None where there is none."""
-        found = self.known(name)
-        return float(found[-1]) if found.size else None
+        values = self.finite(name)
+        return float(values[-1]) if values.size else None
 
     def mean(self, name: str) -> float | None:
         """Mean of a channel's values; None where there is none."""
-        found = self.known(name)
-        return float(found.mean()) if found.size else None
+        values = self.finite(name)
+        return float(values.mean()) if values.size else None
 
-    def known(self, name: str) -> Values:
+    def finite(self, name: str) -> Values:
         """The values of a channel, missing ones left out."""
         values = self.values.get(name, np.empty(0))
-        found: Values = values[np.isfinite(values)]
-        return found
+        finite_values: Values = values[np.isfinite(values)]
+        return finite_values
 
     def _cut(self, shown: npt.NDArray[np.bool_]) -> Recent:
         values = {name: column[shown] for name, column in self.values.items()}
@@ -80,9 +80,9 @@ class Recent:
 
 
 @dataclass
-class _Kept:
+class _Retained:
     blocks: deque[StreamBlock] = field(default_factory=deque)
-    heard_s: float = 0.0
+    received_s: float = 0.0
     # Unit second and the sensor's temperature then.
     trail: deque[tuple[int, float]] = field(default_factory=deque)
 
@@ -93,36 +93,36 @@ class RecentReadings:
     def __init__(self, now_s: Callable[[], float] = time.monotonic) -> None:
         self._now_s = now_s
         self._lock = threading.Lock()
-        self._kept: dict[str, _Kept] = {}
+        self._retained: dict[str, _Retained] = {}
 
     def follow(self, device_id: str, event: DeviceEvent) -> None:
         """Keep what a unit sent; once it is gone, whoever comes next may be another one."""
         if isinstance(event, StateChanged) and event.state not in CONNECTED:
             with self._lock:
-                self._kept.pop(device_id, None)
+                self._retained.pop(device_id, None)
         if not isinstance(event, StreamBlock) or not len(event.values):
             return
         with self._lock:
-            kept = self._kept.setdefault(device_id, _Kept())
-            last = kept.blocks[-1] if kept.blocks else None
+            retained = self._retained.setdefault(device_id, _Retained())
+            last = retained.blocks[-1] if retained.blocks else None
             if last is not None and event.t0_us <= last.t0_us:
-                kept.trail.clear()
+                retained.trail.clear()
             if last is not None and not continues(last, event):
-                kept.blocks.clear()
-            kept.blocks.append(event)
-            kept.heard_s = self._now_s()
-            begin_us = end_us(event) - KEPT_US
-            while end_us(kept.blocks[0]) <= begin_us:
-                kept.blocks.popleft()
-            note_temperature(kept.trail, event)
+                retained.blocks.clear()
+            retained.blocks.append(event)
+            retained.received_s = self._now_s()
+            begin_us = end_us(event) - RETAINED_US
+            while end_us(retained.blocks[0]) <= begin_us:
+                retained.blocks.popleft()
+            note_temperature(retained.trail, event)
 
     def of(self, device_id: str) -> Recent | None:
         """The last seconds; None where the unit is silent or sends no raw counts."""
         with self._lock:
-            kept = self._kept.get(device_id)
-            if kept is None or self._now_s() - kept.heard_s > SILENT_S:
+            retained = self._retained.get(device_id)
+            if retained is None or self._now_s() - retained.received_s > SILENT_S:
                 return None
-            blocks, trail = list(kept.blocks), list(kept.trail)
+            blocks, trail = list(retained.blocks), list(retained.trail)
         specs = {spec.name: place for place, spec in enumerate(blocks[0].channels)}
         if RAW not in specs:
             return None
@@ -164,8 +164,8 @@ def warming_k(trail: list[tuple[int, float]]) -> float | None:
 def continues(last: StreamBlock, block: StreamBlock) -> bool:
     """Whether a block goes on where another ended, no row lost between them."""
     same = (last.period_us, last.channels) == (block.period_us, block.channels)
-    apart_us = block.t0_us - end_us(last) - block.period_us
-    return same and 2 * abs(apart_us) < block.period_us
+    spacing_us = block.t0_us - end_us(last) - block.period_us
+    return same and 2 * abs(spacing_us) < block.period_us
 
 
 def end_us(block: StreamBlock) -> int:

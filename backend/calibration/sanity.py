@@ -29,7 +29,7 @@ deviations of the others, before its mass is called wrong."""
 def refusals(setup: Setup, captures: Sequence[Capture]) -> tuple[Refusal, ...]:
     """All that speaks against a fit of these captures; verifications are left out."""
     used = [capture for capture in captures if capture.state.kind != "verify"]
-    found = _order(used)
+    faults = _order(used)
     load = np.array([capture.state.load_nm(setup) for capture in used])
     counts = np.array([capture.mean_counts for capture in used])
     swapped = _swapped(setup, used, load, counts)
@@ -37,16 +37,16 @@ def refusals(setup: Setup, captures: Sequence[Capture]) -> tuple[Refusal, ...]:
     line = robust_line(load[right], counts[right])
     if line is None:
         sentence = "captures at two loads or more are needed"
-        return (*found, *swapped, Refusal("too_few_loads", sentence, float(len(used))))
+        return (*faults, *swapped, Refusal("too_few_loads", sentence, float(len(used))))
     slope = _slope(setup, line[0])
     wrong = [] if slope or swapped else _wrong_masses(setup, used, load, counts)
-    return (*found, *swapped, *slope, *wrong)
+    return (*faults, *swapped, *slope, *wrong)
 
 
 def _order(captures: Sequence[Capture]) -> list[Refusal]:
     """Against the capture just before it at the same pedal: a step may be repeated later, if it is
     come to from the same side. The way down may begin above what was captured on the way up."""
-    found = []
+    faults = []
     for before, after in pairwise(sorted(captures, key=lambda capture: capture.number)):
         was, state = before.state, after.state
         alike = (was.side, was.crank_angle_deg) == (state.side, state.crank_angle_deg)
@@ -60,8 +60,8 @@ def _order(captures: Sequence[Capture]) -> list[Refusal]:
                 " that was loaded further reads otherwise"
             )
             numbers = (before.number, after.number)
-            found.append(Refusal("order", sentence, state.mass_kg, captures=numbers))
-    return found
+            faults.append(Refusal("order", sentence, state.mass_kg, captures=numbers))
+    return faults
 
 
 def _swapped(
@@ -75,23 +75,23 @@ def _swapped(
     share = np.divide(counts - offset, full, out=np.ones_like(load), where=load > 0)
     if not (share[load > 0] > 0).any():
         return []
-    found = []
-    for capture, seen in zip(captures, share, strict=True):
-        if capture.state.kind == "load" and -1.5 < seen < -0.5:
+    faults = []
+    for capture, slope in zip(captures, share, strict=True):
+        if capture.state.kind == "load" and -1.5 < slope < -0.5:
             side = capture.state.side or ""
             sentence = (
-                f"{capture.state.mass_kg:g} kg on the {side} pedal reads {seen:.2f} of its load:"
+                f"{capture.state.mass_kg:g} kg on the {side} pedal reads {slope:.2f} of its load:"
                 " it hangs on the other pedal"
             )
             values: dict[str, float | str] = {"mass_kg": capture.state.mass_kg, "side": side}
             numbers = (capture.number,)
-            found.append(Refusal("swapped_pedal", sentence, float(seen), values, numbers))
-    return found
+            faults.append(Refusal("swapped_pedal", sentence, float(slope), values, numbers))
+    return faults
 
 
 def _slope(setup: Setup, counts_per_nm: float) -> list[Refusal]:
-    seen = counts_per_nm * setup.gain_nm_per_count
-    if SLOPE_MIN <= seen <= SLOPE_MAX:
+    slope = counts_per_nm * setup.gain_nm_per_count
+    if SLOPE_MIN <= slope <= SLOPE_MAX:
         return []
     nm_per_kg = setup.gravity.gravity_ms2 * setup.arm_m
     confused = {
@@ -101,10 +101,10 @@ def _slope(setup: Setup, counts_per_nm: float) -> list[Refusal]:
         "against": (-1.0, "the sensor turns the other way: the bridge is wired against"),
     }
     for code, (expected, sentence) in confused.items():
-        if abs(seen / expected - 1) < LOOKS_LIKE:
-            return [Refusal(code, f"{sentence} (slope {seen:.3f})", seen)]
-    sentence = f"slope {seen:.3f} of what the unit was made with, allowed is 0.8 to 1.25"
-    return [Refusal("slope", sentence, seen, {"least": SLOPE_MIN, "most": SLOPE_MAX})]
+        if abs(slope / expected - 1) < LOOKS_LIKE:
+            return [Refusal(code, f"{sentence} (slope {slope:.3f})", slope)]
+    sentence = f"slope {slope:.3f} of what the unit was made with, allowed is 0.8 to 1.25"
+    return [Refusal("slope", sentence, slope, {"least": SLOPE_MIN, "most": SLOPE_MAX})]
 
 
 def _wrong_masses(
@@ -113,7 +113,7 @@ def _wrong_masses(
     """Each pedal at each crank angle by itself: a bent spindle is no wrong mass."""
     places = np.array([f"{c.state.side} {c.state.crank_angle_deg}" for c in captures])
     hung = np.array([capture.state.kind == "load" for capture in captures])
-    found = []
+    faults = []
     for place, capture in enumerate(captures):
         alike = hung & (places == places[place])
         others = (alike | ~hung) & (np.arange(load.size) != place)
@@ -125,9 +125,9 @@ def _wrong_masses(
         least = WRONG_SHARE * setup.full_scale_nm * abs(slope)
         allowed = max(least, WRONG_DEVIATIONS * robust_deviation(left[others & hung]))
         if abs(left[place]) > allowed:
-            seen_kg = capture.state.mass_kg * (counts[place] - offset) / (slope * load[place])
-            sentence = f"reads like {seen_kg:.2f} kg, {capture.state.mass_kg:g} kg are named"
+            apparent_kg = capture.state.mass_kg * (counts[place] - offset) / (slope * load[place])
+            sentence = f"reads like {apparent_kg:.2f} kg, {capture.state.mass_kg:g} kg are named"
             values: dict[str, float | str] = {"mass_kg": capture.state.mass_kg}
             numbers = (capture.number,)
-            found.append(Refusal("wrong_mass", sentence, float(seen_kg), values, numbers))
-    return found
+            faults.append(Refusal("wrong_mass", sentence, float(apparent_kg), values, numbers))
+    return faults

@@ -20,7 +20,7 @@ from backend.calibration.describe import (
     summary_of,
     worked_of,
 )
-from backend.calibration.files import KeptCalibration
+from backend.calibration.files import StoredCalibration
 from backend.calibration.fit import fit
 from backend.calibration.job import steps
 from backend.calibration.jobs import CalibrationJobs
@@ -74,12 +74,12 @@ class CalibrationShow:
         setup = kept.setup_in(body)
         plan = () if setup is None else steps(setup, counted)
         others = [one for one in self._store.list() if one.id != job_id]
-        told = summary_of(job, worked)
+        summary = summary_of(job, worked)
         if job.closed_us is None:
-            told = replace(told, result=result_of(body, worked, None))
-        now = told.result.past
+            summary = replace(summary, result=result_of(body, worked, None))
+        now = summary.result.past
         return Job(
-            **{name: getattr(told, name) for name in JobSummary.__dataclass_fields__},
+            **{name: getattr(summary, name) for name in JobSummary.__dataclass_fields__},
             device_id=None if device is None else device.id,
             serial_number=body["unit"]["serial_number"],
             firmware_version=body["unit"]["firmware_version"],
@@ -145,18 +145,20 @@ class CalibrationShow:
 
     # ------------------------------------------------------------------ inside
 
-    def _summary(self, job: KeptCalibration) -> JobSummary:
+    def _summary(self, job: StoredCalibration) -> JobSummary:
         if job.closed_us is not None:
             return summary_of(job)
         return summary_of(job, worked_of(job.body, self._store.captures(job.id)))
 
     def _earlier(
-        self, job: KeptCalibration, others: Sequence[KeptCalibration]
+        self, job: StoredCalibration, others: Sequence[StoredCalibration]
     ) -> tuple[JobSummary, ...]:
         closed = [one for one in others if one.closed_us and one.opened_us < job.opened_us]
         return tuple(map(summary_of, closed[:EARLIER_MAX]))
 
-    def _of_model(self, job: KeptCalibration, others: Sequence[KeptCalibration]) -> Sequence[Past]:
+    def _of_model(
+        self, job: StoredCalibration, others: Sequence[StoredCalibration]
+    ) -> Sequence[Past]:
         """The newest of each other unit of a job's model."""
         newest: dict[str, Past] = {}
         for one in others:
@@ -172,15 +174,15 @@ def expanded_of(worked: Worked | None) -> dict[str, float]:
     return {} if fit is None else {name: fit.expanded(name) for name in fit.names}
 
 
-def is_of_bike(one: KeptCalibration, job: KeptCalibration) -> bool:
+def is_of_bike(one: StoredCalibration, job: StoredCalibration) -> bool:
     """Whether a job was of another's bike, be it with another unit."""
     return one.unit_key == job.unit_key or (one.bike_id is not None and one.bike_id == job.bike_id)
 
 
-def pasts(jobs: Iterator[KeptCalibration]) -> Sequence[Past]:
+def pasts(jobs: Iterator[StoredCalibration]) -> Sequence[Past]:
     """What closed jobs came to."""
-    found = (result_in(job.body).past for job in jobs)
-    return [past for past in found if past is not None]
+    past_results = (result_in(job.body).past for job in jobs)
+    return [past for past in past_results if past is not None]
 
 
 def next_step(plan: Sequence[Step]) -> int | None:
@@ -188,7 +190,7 @@ def next_step(plan: Sequence[Step]) -> int | None:
     return next((place for place, step in enumerate(plan) if step.capture is None), None)
 
 
-def may(job: KeptCalibration, worked: Worked | None, connected: bool) -> Iterator[Action]:
+def may(job: StoredCalibration, worked: Worked | None, connected: bool) -> Iterator[Action]:
     """What can be done with a job now, as of Job."""
     if job.closed_us is not None:
         return

@@ -80,13 +80,13 @@ def steadiness(window: Window, setup: Setup, window_s: float = WINDOW_S) -> Stea
     if blocks < 2 or raw.size < 2 * blocks:
         return None
     out = outliers(raw)
-    kept, when = np.delete(raw, out), np.delete(np.arange(raw.size), out)
-    means = _block_means(kept, when * blocks // raw.size, blocks)
-    slope, slope_standard = _slope(kept, when / raw.size)
+    remaining, when = np.delete(raw, out), np.delete(np.arange(raw.size), out)
+    means = _block_means(remaining, when * blocks // raw.size, blocks)
+    slope, slope_standard = _slope(remaining, when / raw.size)
     scale = setup.full_scale_nm / setup.gain_nm_per_count
-    found = Steadiness(
-        mean_counts=float(kept.mean()),
-        deviation_counts=float(kept.std(ddof=1)),
+    result = Steadiness(
+        mean_counts=float(remaining.mean()),
+        deviation_counts=float(remaining.std(ddof=1)),
         spread_counts=float(means.std(ddof=1)),
         spread_allowed_counts=SPREAD_SHARE * scale,
         drift_counts=slope,
@@ -98,31 +98,31 @@ def steadiness(window: Window, setup: Setup, window_s: float = WINDOW_S) -> Stea
         *_length(window, window_s),
         *_range(raw),
         *_outliers(raw.size, out.size),
-        *_moving(found, slope_standard, kept.size / blocks),
+        *_moving(result, slope_standard, remaining.size / blocks),
         *_warming(window),
     ]
-    return _with(found, reasons)
+    return _with(result, reasons)
 
 
-def _with(found: Steadiness, reasons: list[Refusal]) -> Steadiness:
+def _with(result: Steadiness, reasons: list[Refusal]) -> Steadiness:
     names = [name for name in Steadiness.__slots__ if name != "reasons"]
-    return Steadiness(**{name: getattr(found, name) for name in names}, reasons=tuple(reasons))
+    return Steadiness(**{name: getattr(result, name) for name in names}, reasons=tuple(reasons))
 
 
-def _block_means(kept: Numbers, block: np.ndarray, blocks: int) -> Numbers:
+def _block_means(readings: Numbers, block: np.ndarray, blocks: int) -> Numbers:
     counts = np.bincount(block, minlength=blocks)
-    sums = np.bincount(block, kept, minlength=blocks)
+    sums = np.bincount(block, readings, minlength=blocks)
     means: Numbers = sums[counts > 0] / counts[counts > 0]
     return means
 
 
-def _slope(kept: Numbers, share: Numbers) -> tuple[float, float]:
+def _slope(readings: Numbers, share: Numbers) -> tuple[float, float]:
     """Change over the window, and its standard uncertainty from the scatter about the line."""
     centred = share - share.mean()
     squares = float(centred @ centred)
-    slope = float(centred @ kept) / squares
-    left = kept - kept.mean() - slope * centred
-    return slope, float(np.sqrt(left @ left / max(1, kept.size - 2) / squares))
+    slope = float(centred @ readings) / squares
+    left = readings - readings.mean() - slope * centred
+    return slope, float(np.sqrt(left @ left / max(1, readings.size - 2) / squares))
 
 
 def _length(window: Window, window_s: float) -> list[Refusal]:
@@ -150,17 +150,17 @@ def _outliers(number: int, rejected: int) -> list[Refusal]:
     return [Refusal("outliers", sentence, float(rejected), {"readings": float(number)})]
 
 
-def _moving(found: Steadiness, slope_standard: float, per_block: float) -> list[Refusal]:
+def _moving(result: Steadiness, slope_standard: float, per_block: float) -> list[Refusal]:
     reasons = []
-    drift, allowed = abs(found.drift_counts), found.drift_allowed_counts
+    drift, allowed = abs(result.drift_counts), result.drift_allowed_counts
     drifting = drift > allowed and drift > SIGNIFICANT * slope_standard
     if drifting:
-        sentence = f"drifts by {found.drift_counts:+.1f} counts, {allowed:.1f} are allowed"
-        reasons.append(Refusal("drifting", sentence, found.drift_counts, {"allowed": allowed}))
-    spread, allowed = found.spread_counts, found.spread_allowed_counts
+        sentence = f"drifts by {result.drift_counts:+.1f} counts, {allowed:.1f} are allowed"
+        reasons.append(Refusal("drifting", sentence, result.drift_counts, {"allowed": allowed}))
+    spread, allowed = result.spread_counts, result.spread_allowed_counts
     # The drift's own part of the spread is that of a ramp: its height over the root of twelve.
     if spread > allowed and not (drifting and spread < 1.5 * drift / np.sqrt(12)):
-        white = found.deviation_counts / np.sqrt(per_block)
+        white = result.deviation_counts / np.sqrt(per_block)
         code, word = ("swinging", "swings") if spread > 2 * white else ("noisy", "is noisy")
         sentence = f"{word} by {spread:.1f} counts, {allowed:.1f} are allowed"
         reasons.append(Refusal(code, sentence, spread, {"allowed": allowed}))

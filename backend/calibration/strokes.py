@@ -55,18 +55,18 @@ def side_figures(
     setup: Setup, captures: Sequence[Capture], coefficients: Coefficients
 ) -> tuple[SideFigures, ...]:
     """Of every side with two complete strokes or more; others are left out."""
-    found = []
+    results = []
     for side in setup.sides:
         grid = _grid(setup, captures, side, coefficients)
         if grid is None:
             continue
         load, forward, reverse = grid
         figures = evaluate(setup.full_scale_nm, load, forward, reverse)
-        found.append(_told(side, len(forward), figures))
-    return tuple(found)
+        results.append(_summary(side, len(forward), figures))
+    return tuple(results)
 
 
-def _told(side: Side, strokes: int, figures: Evaluation) -> SideFigures:
+def _summary(side: Side, strokes: int, figures: Evaluation) -> SideFigures:
     return SideFigures(
         side,
         strokes,
@@ -127,8 +127,8 @@ def readings_nm(
         np.nan if capture.state.sensor_degc is None else capture.state.sensor_degc
         for capture in captures
     ]
-    told = coefficients.torque_nm([capture.mean_counts for capture in captures], degc)
-    return told.reshape(len(captures))
+    torque = coefficients.torque_nm([capture.mean_counts for capture in captures], degc)
+    return torque.reshape(len(captures))
 
 
 def _grid(

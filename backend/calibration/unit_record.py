@@ -29,22 +29,22 @@ def record_of(parameters: Mapping[str, Value]) -> dict[str, Any]:
 
 def coefficients_of(record: Mapping[str, Any]) -> Coefficients | None:
     """The coefficients of a record; None of one without offset and gain."""
-    told = {name: record.get(parameter) for name, parameter in PARAMETER_OF.items()}
-    offset, gain = told["offset_counts"], told["gain_nm_per_count"]
+    values = {name: record.get(parameter) for name, parameter in PARAMETER_OF.items()}
+    offset, gain = values["offset_counts"], values["gain_nm_per_count"]
     if offset is None or gain is None or not gain > 0:
         return None
     optional = {
         name: None if value is None else float(value)
-        for name, value in told.items()
+        for name, value in values.items()
         if name not in ("offset_counts", "gain_nm_per_count")
     }
     return Coefficients(float(offset), float(gain), **optional)
 
 
 def record_to_write(
-    found: Mapping[str, Any], coefficients: Coefficients, calibrated_us: int, sha256: str
+    read_back: Mapping[str, Any], coefficients: Coefficients, calibrated_us: int, sha256: str
 ) -> dict[str, Any]:
-    """What goes into a unit with the record `found`: only what it has a place for.
+    """What goes into a unit with the record `read_back`: only what it has a place for.
 
     A temperature coefficient that the captures could not tell stays as it was: at the reference,
     where they were taken, it changes nothing.
@@ -52,8 +52,8 @@ def record_to_write(
     record: dict[str, Any] = {}
     for name, parameter in PARAMETER_OF.items():
         value = getattr(coefficients, name)
-        record[parameter] = found.get(parameter) if value is None else value
+        record[parameter] = read_back.get(parameter) if value is None else value
     record[CALIBRATED_AT] = calibrated_us // 1_000_000
-    record[NUMBER] = int(found.get(NUMBER) or 0) + 1
+    record[NUMBER] = int(read_back.get(NUMBER) or 0) + 1
     record[CERTIFICATE] = list(bytes.fromhex(sha256)[:CERTIFICATE_BYTES])
-    return {name: value for name, value in record.items() if name in found}
+    return {name: value for name, value in record.items() if name in read_back}

@@ -43,14 +43,14 @@ def verifications(setup: Setup, captures: Sequence[Capture], fit: Fit) -> tuple[
         return ()
     used = {capture.state.mass_kg for capture in captures if capture.state.kind == "load"}
     readings = readings_nm(checked, fit.coefficients)
-    found = []
+    results = []
     for capture, reading in zip(checked, readings, strict=True):
         load_nm = capture.state.load_nm(setup)
         own = budget(setup, captures, fit, (load_nm,), without=REFERENCE)
         noise_nm = capture.deviation_counts * fit.coefficients.gain_nm_per_count
         expanded = math.hypot(own.expanded_nm[0], 2 * noise_nm / math.sqrt(capture.count))
         difference = float(reading) - load_nm
-        found.append(
+        results.append(
             Verification(
                 capture.number,
                 load_nm,
@@ -61,7 +61,7 @@ def verifications(setup: Setup, captures: Sequence[Capture], fit: Fit) -> tuple[
                 capture.state.mass_kg not in used,
             )
         )
-    return tuple(found)
+    return tuple(results)
 
 
 def en_number(difference: float, expanded: float) -> float:

@@ -46,9 +46,12 @@ class Worked(Plain):
 
 
 def work_out(
-    setup: Setup, captures: Sequence[Capture], found: Coefficients | None, limits: Limits
+    setup: Setup,
+    captures: Sequence[Capture],
+    unit_coefficients: Coefficients | None,
+    limits: Limits,
 ) -> Worked:
-    """found: the coefficients the unit had; None where nobody read them."""
+    """unit_coefficients: the coefficients the unit had; None where nobody read them."""
     refused = refusals(setup, captures)
     fitted = None if refused else _fit(setup, captures)
     if fitted is None:
@@ -61,7 +64,7 @@ def work_out(
         refused,
         fitted,
         side_figures(setup, captures, fitted.coefficients),
-        side_figures(setup, captures, found) if found else (),
+        side_figures(setup, captures, unit_coefficients) if unit_coefficients else (),
         zero_return_nm(captures, fitted.coefficients),
         budget(setup, captures, fitted),
         asymmetry(setup, data_of(setup, captures), fitted),

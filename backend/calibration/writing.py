@@ -22,7 +22,7 @@ from backend.calibration.describe import (
     worked_of,
     written_part,
 )
-from backend.calibration.files import KeptCalibration
+from backend.calibration.files import StoredCalibration
 from backend.calibration.jobs import CalibrationJobs
 from backend.calibration.plain import from_plain
 from backend.calibration.records import CalibrationStore
@@ -49,7 +49,7 @@ class CalibrationRecord:
         self._now_s = now_s
 
     def planned(
-        self, job: KeptCalibration, captures: Sequence[Capture]
+        self, job: StoredCalibration, captures: Sequence[Capture]
     ) -> tuple[dict[str, Any], dict[str, Any]] | None:
         """The record that `write` would make of the captures that count, and its certificate; None
         before a fit."""
@@ -59,8 +59,8 @@ class CalibrationRecord:
             return None
         written = job.body["certificate"]
         sha256 = made["sha256"] if written is None else written["sha256"]
-        found = from_plain(Coefficients, made["document"]["worked"]["fit"]["coefficients"])
-        return record_to_write(job.body["found"], found, job.body["fitted_us"], sha256), made
+        stored_fit = from_plain(Coefficients, made["document"]["worked"]["fit"]["coefficients"])
+        return record_to_write(job.body["found"], stored_fit, job.body["fitted_us"], sha256), made
 
     def write(self, job_id: int, reason: str, author: str, token: str | None = None) -> None:
         """Write what was fitted. Repeated after nobody answered, it finds out what became of it.
@@ -111,7 +111,7 @@ class CalibrationRecord:
 
     def _change(
         self,
-        job: KeptCalibration,
+        job: StoredCalibration,
         kind: str,
         record: dict[str, Any],
         certificate: dict[str, Any] | None,
@@ -153,7 +153,7 @@ class CalibrationRecord:
         )
 
     def _before(
-        self, job: KeptCalibration, kind: str, device_id: str, record: dict[str, Any]
+        self, job: StoredCalibration, kind: str, device_id: str, record: dict[str, Any]
     ) -> dict[str, Any]:
         """What the unit had before a change, also where an earlier try may have made it."""
         pending = job.body["pending"]

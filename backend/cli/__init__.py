@@ -25,13 +25,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def run(arguments: Sequence[str] | None) -> int:
     """As `main`, for somebody who reads to the end."""
-    given = list(sys.argv[1:] if arguments is None else arguments)
-    if given[:1] in (["sim"], ["scenario"]):
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    if words[:1] in (["sim"], ["scenario"]):
         # The simulator has its own command line; this one only saves people from knowing its name.
         from backend.cli.simulator import run_simulator
 
-        return run_simulator(given)
-    options = build_parser().parse_args(given)
+        return run_simulator(words)
+    options = build_parser().parse_args(words)
     try:
         code: int = options.run(options)
     except SpindleError as error:

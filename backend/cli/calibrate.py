@@ -43,39 +43,39 @@ def certificate_in(file: Path) -> dict[str, Any]:
 
 
 def _certificate(body: dict[str, Any], as_json: bool) -> int:
-    found = evaluate_certificate(body)
+    evaluated = evaluate_certificate(body)
     document = written_document(body)
     unit = None if document is None else sha256_of(document)
     unit_changed = unit is not None and unit != body["written"].get("sha256")
     if as_json:
-        print_json({**_plain(found), "unit_sha256": unit, "unit_changed": unit_changed})
+        print_json({**_plain(evaluated), "unit_sha256": unit, "unit_changed": unit_changed})
     else:
-        _print(found)
+        _print(evaluated)
         if unit is not None:
             changed = ": CHANGED, another was written" if unit_changed else ""
             print(f"  {'in the unit':20} {unit[:16]}{changed}")
-    return 0 if found.reproduced and not unit_changed else 1
+    return 0 if evaluated.reproduced and not unit_changed else 1
 
 
-def _plain(found: Evaluated) -> dict[str, Any]:
+def _plain(evaluated: Evaluated) -> dict[str, Any]:
     return {
-        "reproduced": found.reproduced,
-        "sha256": found.sha256,
-        "stated_sha256": found.stated_sha256,
-        "differences": [asdict(difference) for difference in found.differences],
-        "worked": to_plain(found.worked),
+        "reproduced": evaluated.reproduced,
+        "sha256": evaluated.sha256,
+        "stated_sha256": evaluated.stated_sha256,
+        "differences": [asdict(difference) for difference in evaluated.differences],
+        "worked": to_plain(evaluated.worked),
     }
 
 
-def _print(found: Evaluated) -> None:
-    about, worked = found.told.about, found.worked
-    changed = "" if found.sha256 == found.stated_sha256 else ": CHANGED, it was another"
-    print(f"Certificate {about.number} of {about.unit_key}, {found.sha256}{changed}")
+def _print(evaluated: Evaluated) -> None:
+    about, worked = evaluated.content.about, evaluated.worked
+    changed = "" if evaluated.sha256 == evaluated.stated_sha256 else ": CHANGED, it was another"
+    print(f"Certificate {about.number} of {about.unit_key}, {evaluated.sha256}{changed}")
     state = "all of it follows from the raw captures"
-    if found.differences:
-        state = f"{len(found.differences)} VALUES DO NOT FOLLOW from the raw captures"
-    print(f"  {len(found.told.captures)} captures; {state}")
-    for difference in found.differences[:SHOWN_MAX]:
+    if evaluated.differences:
+        state = f"{len(evaluated.differences)} VALUES DO NOT FOLLOW from the raw captures"
+    print(f"  {len(evaluated.content.captures)} captures; {state}")
+    for difference in evaluated.differences[:SHOWN_MAX]:
         stated, computed = text_of(difference.stated), text_of(difference.computed)
         print(f"  {difference.path}: says {stated}, is {computed}")
     if worked.fit is not None:

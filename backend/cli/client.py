@@ -112,9 +112,9 @@ class Server:
                 return str(device["id"])
         if name is None and len(devices) == 1:
             return str(devices[0]["id"])
-        known = ", ".join(device["id"] for device in devices) or "none"
-        asked = f"There is no unit {name}" if name else "Say which unit"
-        raise RequestRefused(f"{asked}. The server has: {known}.")
+        ids = ", ".join(device["id"] for device in devices) or "none"
+        question = f"There is no unit {name}" if name else "Say which unit"
+        raise RequestRefused(f"{question}. The server has: {ids}.")
 
 
 def refusal(response: httpx.Response) -> SpindleError:

@@ -76,10 +76,10 @@ def get(options: Namespace) -> int:
     server = server_of(options)
     unit, names = unit_and_words(server, options.words)
     config = server.ask("GET", f"/devices/{unit}/config", params={"bank": options.bank})
-    known = config["parameters"]
-    if unknown := [name for name in names if name not in known]:
+    parameters = config["parameters"]
+    if unknown := [name for name in names if name not in parameters]:
         raise RequestRefused(f"The unit has no parameter {', '.join(unknown)}.")
-    values = {name: known[name] for name in names or known}
+    values = {name: parameters[name] for name in names or parameters}
     if options.json:
         print_json({**config, "parameters": values})
     else:
@@ -179,9 +179,9 @@ def diff(options: Namespace) -> int:
         unit = server.device_id(options.other)
         # A server of before may tell choices in the words of then.
         other = read_backup(server.ask("GET", f"/devices/{unit}/config"), unit)
-    told = [backup for backup in (one, other) if backup.is_table] or [one, other]
+    tables = [backup for backup in (one, other) if backup.is_table] or [one, other]
     old, new = one.parameters, other.parameters
-    names = dict.fromkeys(name for backup in told for name in backup.parameters)
+    names = dict.fromkeys(name for backup in tables for name in backup.parameters)
     differing = [name for name in names if old.get(name) != new.get(name)]
     changed = [{"name": name, "old": old.get(name), "new": new.get(name)} for name in differing]
     same = one.unit_key is not None and one.unit_key == other.unit_key
@@ -196,12 +196,12 @@ def list_presets(options: Namespace) -> int:
     """The configurations and tables that come with Spindle; `restore` takes their names."""
     from backend.law import presets
 
-    found = [presets.load(name) for name in presets.names()]
+    documents = [presets.load(name) for name in presets.names()]
     if options.json:
-        items = [{"name": one.name, "kind": one.kind, "comment": one.comment} for one in found]
+        items = [{"name": one.name, "kind": one.kind, "comment": one.comment} for one in documents]
         print_json({"items": items})
         return 0
-    rows = [[one.name, one.kind, one.comment] for one in found]
+    rows = [[one.name, one.kind, one.comment] for one in documents]
     print_table(rows, ["preset", "kind", "what it is"])
     return 0
 
@@ -232,8 +232,8 @@ def require_same_kind(backup: Backup, name: str, family: str, items: list[dict[s
 
 def unknown_here(saved: dict[str, Any], items: list[dict[str, Any]]) -> list[str]:
     """Says which values of a backup this unit has no parameter for."""
-    known = {item["name"] for item in items}
-    unknown = [name for name in saved if name not in known]
+    names = {item["name"] for item in items}
+    unknown = [name for name in saved if name not in names]
     return [f"This unit does not have {', '.join(unknown)}."] if unknown else []
 
 
@@ -256,20 +256,20 @@ def write(
     unit: str,
     changes: dict[str, Any],
     options: Namespace,
-    said: dict[str, Any] | None = None,
-    told: dict[str, Any] | None = None,
+    more_request: dict[str, Any] | None = None,
+    more_output: dict[str, Any] | None = None,
 ) -> int:
     """One transaction, made for the configuration as it is now.
 
-    said: more of the request. told: more of what is printed as JSON.
+    more_request: more of the request. more_output: more of what is printed as JSON.
     """
     path = f"/devices/{unit}/config"
     etag = server.response("GET", path).headers["etag"]
-    body = {"parameters": changes, "reason": options.reason, **(said or {})}
+    body = {"parameters": changes, "reason": options.reason, **(more_request or {})}
     if options.token is not None:
         body["token"] = options.token
     answer = server.ask("PATCH", path, json=body, headers={"if-match": etag})
-    print_changes({**answer, **(told or {})}, options)
+    print_changes({**answer, **(more_output or {})}, options)
     return 0
 
 

@@ -170,11 +170,11 @@ def _add_ride(verbs: Any) -> None:
 def _add_store(verbs: Any) -> None:
     group = _group(verbs, "store", "what is kept here: check, rebuild (without a server)")
     words = "what is in database and folder; changes nothing"
-    for name, run, said in (
+    for name, run, help_text in (
         ("check", store.check, words),
         ("rebuild", store.rebuild, "every ride of the folder back into an empty database"),
     ):
-        command = group.add_parser(name, help=said)
+        command = group.add_parser(name, help=help_text)
         command.add_argument("--data", type=Path, help="the folder of `spindle serve --data`")
         command.add_argument("--json", action="store_true", help="one JSON object")
         command.set_defaults(run=run)

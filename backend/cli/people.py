@@ -43,8 +43,8 @@ def add_arguments(group: Any) -> None:
         if run in (add, role):
             command.add_argument("--role", choices=list(ROLES), required=True)
         if run in (add, reset):
-            said = "one line of standard input instead of a question"
-            command.add_argument("--password-stdin", action="store_true", help=said)
+            help_text = "one line of standard input instead of a question"
+            command.add_argument("--password-stdin", action="store_true", help=help_text)
         command.set_defaults(run=run)
 
 
@@ -65,9 +65,9 @@ def list_people(options: Namespace) -> int:
 
 def add(options: Namespace) -> int:
     """A new account."""
-    password = asked_password(options)
+    password = read_password(options)
     with opened(options) as accounts:
-        return told(options, accounts.add(options.name, options.role, password))
+        return print_account(options, accounts.add(options.name, options.role, password))
 
 
 def role(options: Namespace) -> int:
@@ -87,7 +87,7 @@ def enable(options: Namespace) -> int:
 
 def reset(options: Namespace) -> int:
     """Another password."""
-    return changed(options, password=asked_password(options))
+    return changed(options, password=read_password(options))
 
 
 def changed(options: Namespace, **change: Any) -> int:
@@ -95,11 +95,11 @@ def changed(options: Namespace, **change: Any) -> int:
     from backend.people.types import PersonChange
 
     with opened(options) as accounts:
-        wanted = folded(options.name)
-        found = next((one for one in accounts.list() if folded(one.name) == wanted), None)
-        if found is None:
+        folded_name = folded(options.name)
+        account = next((one for one in accounts.list() if folded(one.name) == folded_name), None)
+        if account is None:
             raise NotFound(f"Nobody is called {options.name!r}; `spindle people list` names all.")
-        return told(options, accounts.change(found.id, PersonChange(**change)))
+        return print_account(options, accounts.change(account.id, PersonChange(**change)))
 
 
 @contextmanager
@@ -112,7 +112,7 @@ def opened(options: Namespace) -> Iterator[Accounts]:
         yield PeopleService(store.database).accounts
 
 
-def asked_password(options: Namespace) -> str:
+def read_password(options: Namespace) -> str:
     """A password, typed twice or from a pipe; never an argument, which every user could read."""
     if options.password_stdin:
         return sys.stdin.readline().rstrip("\r\n")
@@ -122,7 +122,7 @@ def asked_password(options: Namespace) -> str:
     return first
 
 
-def told(options: Namespace, person: Person) -> int:
+def print_account(options: Namespace, person: Person) -> int:
     """Says what an account is now."""
     if options.json:
         print_json(as_json(person))

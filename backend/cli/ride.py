@@ -31,7 +31,7 @@ def import_files(options: Namespace) -> int:
     server = server_of(options)
     answers = []
     for file in options.files:
-        answer = {"file": str(file), **said_of_table(server, options, import_file(server, file))}
+        answer = {"file": str(file), **answer_for_table(server, options, import_file(server, file))}
         answers.append(answer)
         if not options.json:
             print_upload(answer)
@@ -59,14 +59,14 @@ def import_file(server: Any, file: Path) -> dict[str, Any]:
     return answer
 
 
-def said_of_table(server: Any, options: Namespace, upload: dict[str, Any]) -> dict[str, Any]:
+def answer_for_table(server: Any, options: Namespace, upload: dict[str, Any]) -> dict[str, Any]:
     """What became of a table once the options say what it does not; other files as they are."""
     if upload.get("code") == "part_asks":
-        return said_of_parts(server, options, upload)
+        return answer_for_parts(server, options, upload)
     if upload.get("code") != "needs_mapping":
         return upload
     path = f"/uploads/{upload['id']}/mapping"
-    asked = server.ask("GET", path)
+    question = server.ask("GET", path)
     by_channel = {
         "speed_kmh": options.speed_unit,
         "distance_m": options.distance_unit,
@@ -77,7 +77,7 @@ def said_of_table(server: Any, options: Namespace, upload: dict[str, Any]) -> di
         "motor_torque_nm": options.torque_unit,
     }
     lacks, units = [], {}
-    for column in asked["columns"]:
+    for column in question["columns"]:
         if not column["units"]:
             continue
         option = by_channel.get(column["channel"])
@@ -86,25 +86,25 @@ def said_of_table(server: Any, options: Namespace, upload: dict[str, Any]) -> di
             lacks.append(f"--{name}-unit ({', '.join(column['units'])}) of {column['name']}")
         else:
             units[column["name"]] = option
-    if asked["time_zone"] and options.time_zone is None:
+    if question["time_zone"] and options.time_zone is None:
         lacks.append("--time-zone of its times")
-    if asked["rows_per_second"] and options.rows_per_second is None:
+    if question["rows_per_second"] and options.rows_per_second is None:
         lacks.append("--rows-per-second")
     if lacks:
         return {**upload, "detail": f"{upload['detail']} Lacking: {'; '.join(lacks)}."}
-    said = {
+    body = {
         "time_zone": options.time_zone,
         "units": units,
         "rows_per_second": options.rows_per_second,
     }
     try:
-        answer: dict[str, Any] = server.ask("PUT", path, json=said)
+        answer: dict[str, Any] = server.ask("PUT", path, json=body)
     except RequestRefused as error:
         return {**upload, "code": error.code, "detail": error.message}
     return answer
 
 
-def said_of_parts(server: Any, options: Namespace, upload: dict[str, Any]) -> dict[str, Any]:
+def answer_for_parts(server: Any, options: Namespace, upload: dict[str, Any]) -> dict[str, Any]:
     """What became of an archive once the options say what tables within it do not."""
     cursor: str | None = None
     while True:
@@ -113,9 +113,12 @@ def said_of_parts(server: Any, options: Namespace, upload: dict[str, Any]) -> di
         for part in page["items"]:
             # What was said of one may have read it since.
             now = server.ask("GET", f"/uploads/{part['id']}")
-            said = said_of_table(server, options, now)
-            if said.get("code") == "needs_mapping":
-                return {**upload, "detail": f"{upload['detail']} {part['name']}: {said['detail']}"}
+            answer = answer_for_table(server, options, now)
+            if answer.get("code") == "needs_mapping":
+                return {
+                    **upload,
+                    "detail": f"{upload['detail']} {part['name']}: {answer['detail']}",
+                }
         cursor = page["next"]
         if cursor is None:
             return read_by_now(server, upload["id"])
@@ -145,7 +148,7 @@ def print_upload(answer: dict[str, Any]) -> None:
 
 def list_rides(options: Namespace) -> int:
     """Rides, newest first: all, or those that are asked for."""
-    asked = {
+    filters = {
         "limit": options.limit,
         "bike": options.bike,
         "from": options.since,
@@ -155,7 +158,7 @@ def list_rides(options: Namespace) -> int:
         "tag": options.tag,
         "q": " ".join(options.words) or None,
     }
-    params = {name: value for name, value in asked.items() if value is not None}
+    params = {name: value for name, value in filters.items() if value is not None}
     answer = server_of(options).ask("GET", "/rides", params=params)
     if options.json:
         print_json(answer)
@@ -218,10 +221,10 @@ def archive(options: Namespace) -> int:
 
 def report(options: Namespace) -> int:
     """A ride as one HTML file."""
-    asked = ("language", "threshold_power_w", "heart_rate_bpm_max")
-    told = {name: getattr(options, name) for name in asked}
+    names = ("language", "threshold_power_w", "heart_rate_bpm_max")
+    params = {name: getattr(options, name) for name in names}
     return save(
-        options, f"{options.ride}/report", {name: value for name, value in told.items() if value}
+        options, f"{options.ride}/report", {name: value for name, value in params.items() if value}
     )
 
 

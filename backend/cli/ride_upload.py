@@ -23,11 +23,11 @@ from backend.cli.device import server_of
 from backend.cli.ride import print_upload
 from backend.errors import LinkError, RequestRefused
 
-LOOK_EVERY_S = 2.0
+SCAN_EVERY_S = 2.0
 PART_BYTES = 1 << 20
 # A server that restarts is back in seconds; one that is off is asked once a minute.
 WAIT_FIRST_S, WAIT_MAX_S = 1.0, 60.0
-ASK_AGAIN_S = 0.2
+RETRY_S = 0.2
 TUS = {"tus-resumable": "1.0.0"}
 PART = {**TUS, "content-type": "application/offset+octet-stream"}
 WORDS = {
@@ -39,7 +39,7 @@ WORDS = {
 
 
 @dataclass(frozen=True)
-class Look:
+class FileState:
     """A file as it stood when it was looked at."""
 
     path: Path
@@ -67,8 +67,8 @@ class Sender:
 
     def _sent(self, name: str, data: bytes) -> dict[str, Any]:
         sha256 = hashlib.sha256(data).hexdigest()
-        known = self._patiently("GET", "/uploads", params={"sha256": sha256}).json()["items"]
-        for upload in known:
+        uploads = self._patiently("GET", "/uploads", params={"sha256": sha256}).json()["items"]
+        for upload in uploads:
             if upload["ride_ids"] and upload["parts"] is None:
                 return {**upload, "code": "duplicate", "duplicate_of": upload["ride_ids"][0]}
         described = {"filename": name, "sha256": sha256}
@@ -102,7 +102,7 @@ class Sender:
             upload: dict[str, Any] = self._patiently("GET", path).json()
             if upload["state"] not in ("receiving", "queued") or upload["code"] == "ride_is_live":
                 return upload
-            self._wait(ASK_AGAIN_S)
+            self._wait(RETRY_S)
 
     def _patiently(self, method: str, path: str, **request: Any) -> Any:
         """An answer, whenever it comes. Raises RequestRefused."""
@@ -122,20 +122,20 @@ class Folders:
     def __init__(self, paths: Sequence[Path], watching: bool) -> None:
         self._paths = paths
         self._watching = watching
-        self._before: set[Look] = set()
-        self._given: set[Look] = set()
+        self._before: set[FileState] = set()
+        self._sent_before: set[FileState] = set()
 
     def new(self) -> list[Path]:
         """Files that were not given yet, and have not grown since the look before."""
-        looks = {look for path in self._paths for look in looks_of(path)}
-        still = looks & self._before if self._watching else looks
-        self._before = looks
-        fresh = sorted(still - self._given, key=lambda look: look.path)
-        self._given |= set(fresh)
+        states = {look for path in self._paths for look in file_states(path)}
+        still = states & self._before if self._watching else states
+        self._before = states
+        fresh = sorted(still - self._sent_before, key=lambda look: look.path)
+        self._sent_before |= set(fresh)
         return [look.path for look in fresh]
 
 
-def looks_of(path: Path) -> Iterator[Look]:
+def file_states(path: Path) -> Iterator[FileState]:
     """A file, or every file below a folder but the hidden ones."""
     inside = path.rglob("*") if path.is_dir() else [path]
     for file in inside:
@@ -148,7 +148,7 @@ def looks_of(path: Path) -> Iterator[Look]:
         except OSError:
             # It went while it was looked at; the next look tells.
             continue
-        yield Look(file, status.st_size, status.st_mtime_ns)
+        yield FileState(file, status.st_size, status.st_mtime_ns)
 
 
 def upload(options: Namespace) -> int:
@@ -166,7 +166,7 @@ def upload(options: Namespace) -> int:
                     print_upload(answers[-1])
             if not options.watch:
                 break
-            time.sleep(LOOK_EVERY_S)
+            time.sleep(SCAN_EVERY_S)
     except KeyboardInterrupt:
         # The way to end a watch; what was done is told as ever.
         pass
@@ -174,9 +174,9 @@ def upload(options: Namespace) -> int:
     if options.json:
         print_json({"items": answers, "summary": {word: counted[word] for word in WORDS}})
     else:
-        told = ", ".join(f"{counted[word]} {WORDS[word]}" for word in WORDS if counted[word])
+        summary = ", ".join(f"{counted[word]} {WORDS[word]}" for word in WORDS if counted[word])
         files = "1 file" if len(answers) == 1 else f"{len(answers)} files"
-        print(f"{files}: {told}." if answers else "No file.")
+        print(f"{files}: {summary}." if answers else "No file.")
     return 1 if counted["rejected"] else 0
 
 

@@ -23,17 +23,17 @@ def check(options: Namespace) -> int:
     """Says what is in database and folder; 1 if anything is wrong."""
     from backend.store.upkeep.check import check_store
 
-    found = check_store(*urls(options))
+    result = check_store(*urls(options))
     if options.json:
-        print_json(found.as_json())
+        print_json(result.as_json())
     else:
-        print_check(found.as_json())
-    return 0 if found.is_fine else 1
+        print_check(result.as_json())
+    return 0 if result.is_fine else 1
 
 
-def print_check(found: dict[str, Any]) -> None:
+def print_check(result: dict[str, Any]) -> None:
     """The check as a person reads it."""
-    database, folder, objects = found["database"], found["folder"], found["objects"]
+    database, folder, objects = result["database"], result["folder"], result["objects"]
     lines = {
         "database": database["url"],
         "database state": database["state"],
@@ -54,10 +54,10 @@ def print_check(found: dict[str, Any]) -> None:
     print_keys("damaged", [f"{each['key']}: {each['reason']}" for each in objects["damaged"]])
     print_keys("not known to the database", objects["unknown"])
     print_keys("in lost+found", objects["lost_found"])
-    if found["reason"]:
-        print(f"Database and folder are not one store: {found['reason']}.")
+    if result["reason"]:
+        print(f"Database and folder are not one store: {result['reason']}.")
         print("`spindle store rebuild` brings every ride of the folder into an empty database.")
-    elif found["ok"]:
+    elif result["ok"]:
         print("Everything is there.")
 
 
@@ -73,12 +73,12 @@ def print_keys(words: str, keys: list[str]) -> None:
 
 def rebuild(options: Namespace) -> int:
     """Brings every ride of the folder into an empty database; 1 if files were not taken."""
-    from backend.rebuild import rebuild_store, told
+    from backend.rebuild import rebuild_store, report_lines
 
     report = rebuild_store(*urls(options))
     if options.json:
         print_json(report.as_json())
     else:
-        for line in told(report):
+        for line in report_lines(report):
             print(line)
     return 1 if report.not_taken else 0

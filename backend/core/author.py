@@ -34,5 +34,5 @@ def proof_of(author: str) -> AuthorProof | None:
 
 def tidy_author(name: str) -> str:
     """A name as it is kept: one line, no characters that cannot be seen, not too long."""
-    seen = "".join(character if character.isprintable() else " " for character in name)
-    return " ".join(seen.split())[:AUTHOR_MAX].strip()
+    printable = "".join(character if character.isprintable() else " " for character in name)
+    return " ".join(printable.split())[:AUTHOR_MAX].strip()

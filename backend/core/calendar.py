@@ -27,7 +27,7 @@ class Period:
     to_us: int
 
 
-def asked_zone(name: str) -> ZoneInfo:
+def require_zone(name: str) -> ZoneInfo:
     """A time zone of the IANA database. Raises InvalidRequest for a name that is none."""
     zone = zone_of(name)
     if zone is None:

@@ -58,8 +58,8 @@ class ChannelSpec:
         limit = -self.missing - 1
         counts = np.rint(values / self.scale)
         beyond = ~np.isfinite(counts) | (np.abs(counts) > limit)
-        whole = np.where(beyond, self.missing, counts)
-        return whole.astype(np.int32) if self.wide else whole.astype(np.int16)
+        encoded = np.where(beyond, self.missing, counts)
+        return encoded.astype(np.int32) if self.wide else encoded.astype(np.int16)
 
 
 def channel_to_json(channel: ChannelSpec) -> dict[str, object]:

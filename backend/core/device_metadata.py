@@ -14,7 +14,7 @@ from backend.core.described import described, from_members
 
 # More than any ride has; a file may say anything.
 LAPS_MAX, PAUSES_MAX, INSTRUMENTS_MAX = 1000, 2000, 64
-STATEMENTS_MAX, STATED_MAX = 16, 200
+STATEMENTS_MAX, FIGURES_MAX = 16, 200
 # What shares less than this with a ride ended as the ride began: files tell whole seconds.
 LEAST_S = 1.0
 
@@ -91,9 +91,9 @@ class DeviceMetadata:
     statements: tuple[DeviceSession, ...] = ()
 
 
-def metadata_to_json(noted: DeviceMetadata) -> dict[str, object]:
+def metadata_to_json(metadata: DeviceMetadata) -> dict[str, object]:
     """Plain JSON, the inverse of `metadata_from_json`."""
-    return asdict(noted)
+    return asdict(metadata)
 
 
 def metadata_from_json(body: Mapping[str, Any] | None) -> DeviceMetadata:
@@ -105,9 +105,11 @@ def metadata_from_json(body: Mapping[str, Any] | None) -> DeviceMetadata:
         instruments=_items(Instrument, body.get("instruments", ())),
         statements=tuple(
             DeviceSession(
-                told["from_s"], told["to_s"], _items(DeviceFigure, told.get("figures", ()))
+                statement["from_s"],
+                statement["to_s"],
+                _items(DeviceFigure, statement.get("figures", ())),
             )
-            for told in body.get("statements", ())
+            for statement in body.get("statements", ())
         ),
     )
 
@@ -116,10 +118,10 @@ def _items(kind: type[Any], bodies: Sequence[Mapping[str, Any]]) -> tuple[Any, .
     return tuple(from_members(kind, body) for body in bodies)
 
 
-def within(noted: DeviceMetadata, started_s: float, duration_s: float) -> DeviceMetadata:
+def within(metadata: DeviceMetadata, started_s: float, duration_s: float) -> DeviceMetadata:
     """What of a file's notes is of one ride of it.
 
-    noted: with times as Unix seconds. started_s: Unix time of the ride's first row. What reaches
+    metadata: with times as Unix seconds. started_s: Unix time of the ride's first row. What reaches
     beyond the ride is cut to it, but for statements: their figures are of all of their session.
     What lies outside is of another ride.
     """
@@ -130,18 +132,18 @@ def within(noted: DeviceMetadata, started_s: float, duration_s: float) -> Device
         changed = {"from_s": round(from_s, 6), "to_s": round(to_s, 6)}
         return type(item)(**{**asdict(item), **changed})
 
-    laps = [cut(lap) for lap in noted.laps if _touches(lap, started_s, duration_s)]
-    pauses = [cut(pause) for pause in noted.pauses if _touches(pause, started_s, duration_s)]
+    laps = [cut(lap) for lap in metadata.laps if _touches(lap, started_s, duration_s)]
+    pauses = [cut(pause) for pause in metadata.pauses if _touches(pause, started_s, duration_s)]
     laps.sort(key=lambda lap: (lap.from_s, lap.to_s))
     statements = [
         DeviceSession(round(s.from_s - started_s, 6), round(s.to_s - started_s, 6), s.figures)
-        for s in noted.statements
+        for s in metadata.statements
         if _touches(s, started_s, duration_s)
     ]
     return DeviceMetadata(
         tuple(laps[:LAPS_MAX]),
         tuple(pauses[:PAUSES_MAX]),
-        noted.instruments,
+        metadata.instruments,
         tuple(statements[:STATEMENTS_MAX]),
     )
 

@@ -106,15 +106,15 @@ def derive(name: str, columns: Mapping[str, Values], gear_ratio: float | None) -
 def energy(power_w: Values, seconds: Values) -> Energy:
     """Energy of power (n,) where sample i holds for seconds[i] (n,); NaN samples are left out."""
     missing = ~np.isfinite(power_w)
-    joules = held_sum(power_w, seconds)
+    joules = weighted_sum(power_w, seconds)
     return Energy(wh=joules / SECONDS_PER_HOUR, excluded_s=float(np.sum(seconds[missing])))
 
 
-def held_sum(values: Values, seconds: Values) -> float:
+def weighted_sum(values: Values, seconds: Values) -> float:
     """Sum of the samples (n,) times how long each holds; missing ones count nothing."""
-    there = np.where(np.isfinite(values), values, 0.0)
-    there *= seconds
-    return float(np.sum(there))
+    present = np.where(np.isfinite(values), values, 0.0)
+    present *= seconds
+    return float(np.sum(present))
 
 
 def sample_seconds(times_us: np.ndarray[tuple[int], np.dtype[np.int64]], pause_us: int) -> Values:
@@ -130,9 +130,9 @@ def sample_seconds(times_us: np.ndarray[tuple[int], np.dtype[np.int64]], pause_u
     spacing = np.diff(times_us)
     running = spacing[(spacing > 0) & (spacing <= pause_us)]
     usual = float(np.median(running)) if len(running) else 0.0
-    held = np.append(spacing, usual).astype(np.float64)
-    held[held > pause_us] = usual
-    return np.maximum(held, 0.0) / 1e6
+    durations = np.append(spacing, usual).astype(np.float64)
+    durations[durations > pause_us] = usual
+    return np.maximum(durations, 0.0) / 1e6
 
 
 def rate_hz(seconds: Values) -> float | None:

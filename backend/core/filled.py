@@ -67,7 +67,7 @@ def filled_seconds(
     seconds = np.full(len(empty), period_us / 1e6)
     for span in filled:
         start, stop = span.rows(period_us)
-        there = start + np.flatnonzero(~empty[start:stop])
+        rows = start + np.flatnonzero(~empty[start:stop])
         seconds[start:stop] = 0.0
-        seconds[there] = np.diff(np.append(there, stop)) * period_us / 1e6
+        seconds[rows] = np.diff(np.append(rows, stop)) * period_us / 1e6
     return seconds

@@ -17,9 +17,9 @@ from backend.core.energy import (
     MOTOR_POWER,
     RIDER_POWER,
     energy,
-    held_sum,
     motor_torque_meaning,
     sample_seconds,
+    weighted_sum,
 )
 from backend.core.filled import Filled
 from backend.core.intake import Intake
@@ -139,7 +139,7 @@ class Ride:
     the recording ended while the bike moved, or with its server, so that nobody knows what came
     after. bike_id: the bike its unit was on; None where nobody knows the unit. sport: as the file
     calls it, None for none. intake: what became of the file's rows and fields, None for what came
-    from no file. noted: what the device that made the file told beside its rows. same_ride_as:
+    from no file. metadata: what the device that made the file told beside its rows. same_ride_as:
     another device's recording of the same ride. tags: words its rider gave it. place,
     speed_line_kmh: of its card, once that is made.
     """
@@ -168,7 +168,7 @@ class Ride:
     bike_id: int | None = None
     sport: str | None = None
     intake: Intake | None = None
-    noted: DeviceMetadata = DeviceMetadata()  # noqa: RUF009 - frozen
+    metadata: DeviceMetadata = DeviceMetadata()  # noqa: RUF009 - frozen
     same_ride_as: int | None = None
     tags: tuple[str, ...] = ()
     place: RidePlace | None = None
@@ -217,7 +217,7 @@ class Ride:
             "cut_short": self.cut_short,
             "sport": self.sport,
             "intake": asdict(self.intake) if self.intake else None,
-            **metadata_to_json(self.noted),
+            **metadata_to_json(self.metadata),
             "upload_id": self.upload_id,
             "object_bytes": self.object_bytes,
             "summary": asdict(self.summary) if self.summary else None,
@@ -235,8 +235,8 @@ BLANK_LETTERS = frozenset("\u115f\u1160\u2800\u3164\uffa0")
 def readable_name(name: str) -> str:
     """A name as it was given; empty where nothing of it can be seen, so that the ride is called by
     its time of day."""
-    seen = any(c.isprintable() and not c.isspace() and c not in BLANK_LETTERS for c in name)
-    return name if seen else ""
+    is_visible = any(c.isprintable() and not c.isspace() and c not in BLANK_LETTERS for c in name)
+    return name if is_visible else ""
 
 
 def iso_utc(time_us: int) -> str:
@@ -322,10 +322,10 @@ def movement_figures(values: Mapping[str, Values], seconds: Values) -> dict[str,
     if speed is not None and np.isfinite(speed).any():
         moving = speed > MOVING_KMH
         moving_s = float(np.sum(seconds[moving]))
-        ridden = held_sum(speed[moving], seconds[moving])
+        ridden = weighted_sum(speed[moving], seconds[moving])
         figures |= {
             "moving_s": moving_s,
-            "distance_km": held_sum(speed, seconds) / 3600.0,
+            "distance_km": weighted_sum(speed, seconds) / 3600.0,
             "speed_kmh_mean": ridden / moving_s if moving_s > 0 else None,
             "speed_kmh_max": largest(speed),
         }
@@ -343,9 +343,9 @@ def track_km(
     What lies between two positions further apart in time than break_us is not counted: nobody
     knows the way. None where no two positions follow each other.
     """
-    there = np.isfinite(latitude_deg) & np.isfinite(longitude_deg)
-    latitude, longitude = latitude_deg[there], longitude_deg[there]
-    follows = np.diff(times_us[there]) <= break_us
+    valid = np.isfinite(latitude_deg) & np.isfinite(longitude_deg)
+    latitude, longitude = latitude_deg[valid], longitude_deg[valid]
+    follows = np.diff(times_us[valid]) <= break_us
     if not follows.any():
         return None
     steps_m = great_circle_m(latitude[:-1], longitude[:-1], latitude[1:], longitude[1:])
@@ -390,5 +390,5 @@ def present(values: Values | None) -> Values:
 
 def largest(values: Values | None) -> float | None:
     """Largest sample, None when there is none."""
-    there = present(values)
-    return float(np.max(there)) if len(there) else None
+    numbers = present(values)
+    return float(np.max(numbers)) if len(numbers) else None

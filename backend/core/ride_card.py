@@ -46,10 +46,10 @@ def speed_line(start_s: Values, speed_kmh: Values | None) -> bytes:
     """
     if speed_kmh is None or not np.isfinite(speed_kmh).any():
         return b""
-    there = np.isfinite(speed_kmh)
+    valid = np.isfinite(speed_kmh)
     points = (start_s * (LINE_POINTS / (start_s[-1] + 1e-6))).astype(np.intp)
-    sums = np.bincount(points[there], speed_kmh[there], LINE_POINTS)
-    counts = np.bincount(points[there], minlength=LINE_POINTS)
+    sums = np.bincount(points[valid], speed_kmh[valid], LINE_POINTS)
+    counts = np.bincount(points[valid], minlength=LINE_POINTS)
     steps = np.full(LINE_POINTS, LINE_MISSING, np.uint8)
     some = counts > 0
     means = sums[some] / counts[some] / LINE_STEP_KMH
@@ -70,15 +70,15 @@ def ends_of(
     """The first position, and whether the ride came back to it; None without positions."""
     if latitude_deg is None or longitude_deg is None:
         return None, None
-    there = np.isfinite(latitude_deg) & np.isfinite(longitude_deg)
-    if not there.any():
+    valid = np.isfinite(latitude_deg) & np.isfinite(longitude_deg)
+    if not valid.any():
         return None, None
     away_m = great_circle_m(
-        float(latitude_deg[there][0]),
-        float(longitude_deg[there][0]),
-        latitude_deg[there],
-        longitude_deg[there],
+        float(latitude_deg[valid][0]),
+        float(longitude_deg[valid][0]),
+        latitude_deg[valid],
+        longitude_deg[valid],
     )
-    begin = float(latitude_deg[there][0]), float(longitude_deg[there][0])
+    begin = float(latitude_deg[valid][0]), float(longitude_deg[valid][0])
     is_loop = bool(away_m[-1] <= LOOP_END_M < np.max(away_m) / 2)
     return begin, is_loop

@@ -23,8 +23,8 @@ ASSIST_MODE: Final = "assist_mode"
 MARK: Final = "mark"
 SETTINGS: Final = "settings"
 CLOCK_SET: Final = "clock_set"
-TOLD_ONLY = (MARK, SETTINGS, CLOCK_SET)
-KINDS = frozenset({FAULT_SET, FAULT_CLEARED, ASSIST_MODE, *TOLD_ONLY})
+NOT_IN_ROWS = (MARK, SETTINGS, CLOCK_SET)
+KINDS = frozenset({FAULT_SET, FAULT_CLEARED, ASSIST_MODE, *NOT_IN_ROWS})
 # A loose plug makes thousands; they are in the rows all the same.
 EVENTS_MAX = 200
 
@@ -52,39 +52,41 @@ def events_of_rows(
     """Changes in a channel of faults or the mode's, counts (n,); none for any other."""
     if channel.name != MODE_CHANNEL and channel.name not in FAULTS_CHANNELS:
         return []
-    there = np.flatnonzero(counts != channel.missing)
-    values = np.rint(channel.to_values(counts[there])).astype(np.int64)
+    rows_with_values = np.flatnonzero(counts != channel.missing)
+    values = np.rint(channel.to_values(counts[rows_with_values])).astype(np.int64)
     changed = np.flatnonzero(np.diff(values)) + 1
-    found: list[RideEvent] = []
+    events: list[RideEvent] = []
     if len(values):
-        found += _between(channel.name, times_us[there[0]], None, int(values[0]))
+        events += _between(channel.name, times_us[rows_with_values[0]], None, int(values[0]))
     for index in changed[:EVENTS_MAX]:
         before, after = int(values[index - 1]), int(values[index])
-        found += _between(channel.name, times_us[there[index]], before, after)
-    return found[:EVENTS_MAX]
+        events += _between(channel.name, times_us[rows_with_values[index]], before, after)
+    return events[:EVENTS_MAX]
 
 
-def merged(rows: Sequence[RideEvent], told: Sequence[RideEvent], same_s: float) -> list[RideEvent]:
+def merged(
+    rows: Sequence[RideEvent], reported: Sequence[RideEvent], same_s: float
+) -> list[RideEvent]:
     """What the rows show and what was told besides, in order of time.
 
     same_s: so far apart they are one and the same. What is in no row is only told: of that none
     is left out, however many there are of the rest.
     """
-    seen = _one_a_moment(rows)
+    from_rows = _one_a_moment(rows)
     extra = [
         event
-        for event in told
-        if event.kind not in TOLD_ONLY
+        for event in reported
+        if event.kind not in NOT_IN_ROWS
         and not any(
             event.kind == other.kind
             and abs(event.t_s - other.t_s) <= same_s
             and _covers(other, event)
-            for other in seen
+            for other in from_rows
         )
     ]
-    shown = sorted([*seen, *extra], key=_time)[:EVENTS_MAX]
-    kept = [event for event in told if event.kind in (MARK, CLOCK_SET)]
-    return sorted([*shown, *kept, *settings_changes(told)], key=_time)
+    shown = sorted([*from_rows, *extra], key=_time)[:EVENTS_MAX]
+    marks = [event for event in reported if event.kind in (MARK, CLOCK_SET)]
+    return sorted([*shown, *marks, *settings_changes(reported)], key=_time)
 
 
 def settings_changes(events: Sequence[RideEvent], crc32: int | None = None) -> list[RideEvent]:
@@ -92,12 +94,12 @@ def settings_changes(events: Sequence[RideEvent], crc32: int | None = None) -> l
 
     crc32: of the configuration before the first of them, None where nobody knows it.
     """
-    found: list[RideEvent] = []
+    changes: list[RideEvent] = []
     for event in sorted((event for event in events if event.kind == SETTINGS), key=_time):
         if event.value != crc32:
-            found.append(event)
+            changes.append(event)
         crc32 = event.value
-    return found
+    return changes
 
 
 def _time(event: RideEvent) -> float:
@@ -131,7 +133,7 @@ def _between(name: str, time_us: int, before: int | None, after: int) -> list[Ri
     return [RideEvent(t_s, kind, bits) for kind, bits in pairs if bits]
 
 
-def _covers(seen: RideEvent, told: RideEvent) -> bool:
-    if told.kind == ASSIST_MODE:
-        return seen.value == told.value
-    return seen.value & told.value == told.value
+def _covers(from_rows: RideEvent, reported: RideEvent) -> bool:
+    if reported.kind == ASSIST_MODE:
+        return from_rows.value == reported.value
+    return from_rows.value & reported.value == reported.value

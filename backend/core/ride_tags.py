@@ -13,12 +13,12 @@ TAGS_MAX = 20
 
 def clean_tags(words: Iterable[str]) -> tuple[str, ...]:
     """Tags without needless space, each once whatever its case. Raises InvalidRequest."""
-    found: dict[str, str] = {}
+    tags: dict[str, str] = {}
     for word in words:
         tag = " ".join(word.replace("\0", "").split())
         if tag:
-            found.setdefault(tag.casefold(), tag)
-    if len(found) > TAGS_MAX or any(len(tag) > TAG_LENGTH_MAX for tag in found.values()):
+            tags.setdefault(tag.casefold(), tag)
+    if len(tags) > TAGS_MAX or any(len(tag) > TAG_LENGTH_MAX for tag in tags.values()):
         message = f"A ride has at most {TAGS_MAX} tags of at most {TAG_LENGTH_MAX} characters."
         raise InvalidRequest(message, fields=[FieldError("tags", "too_long", message)])
-    return tuple(sorted(found.values(), key=str.casefold))
+    return tuple(sorted(tags.values(), key=str.casefold))

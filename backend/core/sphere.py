@@ -18,9 +18,9 @@ def great_circle_m(
     longitudes_deg: Values,
 ) -> Values:
     """From one place, or from each of (n,), to places (n,), in m, by the haversine formula."""
-    here, there = np.radians(latitude_deg), np.radians(latitudes_deg)
-    half_lat = (there - here) / 2
+    from_rad, to_rad = np.radians(latitude_deg), np.radians(latitudes_deg)
+    half_lat = (to_rad - from_rad) / 2
     half_lon = np.radians(longitudes_deg - longitude_deg) / 2
-    chord = np.sin(half_lat) ** 2 + np.cos(here) * np.cos(there) * np.sin(half_lon) ** 2
+    chord = np.sin(half_lat) ** 2 + np.cos(from_rad) * np.cos(to_rad) * np.sin(half_lon) ** 2
     metres: Values = 2 * EARTH_M * np.arcsin(np.sqrt(np.clip(chord, 0.0, 1.0)))
     return metres

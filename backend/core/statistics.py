@@ -48,9 +48,9 @@ def coverage_factor(degrees_of_freedom: float | None) -> float:
     if degrees_of_freedom is None:
         return NORMAL_95_45
     few = {1: 13.97, 2: 4.53, 3: 3.31}
-    whole = int(degrees_of_freedom)
-    if whole <= 3:
-        return few[max(1, whole)]
+    degrees = int(degrees_of_freedom)
+    if degrees <= 3:
+        return few[max(1, degrees)]
     return student(NORMAL_95_45, degrees_of_freedom)
 
 
@@ -60,9 +60,9 @@ def robust_line(x: Numbers, y: Numbers) -> tuple[float, float] | None:
     x, y: (n,). Up to 29 % of wrong points do not move it. None with less than two places in x.
     """
     first, second = np.triu_indices(x.size, 1)
-    apart = np.abs(x[first] - x[second]) > 1e-9
-    if not apart.any():
+    distinct = np.abs(x[first] - x[second]) > 1e-9
+    if not distinct.any():
         return None
-    first, second = first[apart], second[apart]
+    first, second = first[distinct], second[distinct]
     slope = float(np.median((y[second] - y[first]) / (x[second] - x[first])))
     return slope, float(np.median(y - slope * x))

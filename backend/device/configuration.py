@@ -124,9 +124,9 @@ class ParameterTable(ABC):
 
     def unknown_names(self, changes: Config) -> list[FieldError]:
         """A fault for each name that is no parameter."""
-        known = {row.name for row in self.rows}
+        names = {row.name for row in self.rows}
         return [
             FieldError(name, "unknown_parameter", f"{name} is not a parameter of this unit.")
             for name in changes
-            if name not in known
+            if name not in names
         ]

@@ -53,7 +53,7 @@ class Conversation(Protocol):
         name: str,
         nonce: bytes,
         bits_per_second: float | None = None,
-        wanted: float | None = None,
+        requested: float | None = None,
     ) -> None:
         """A port is open. nonce: 8 random bytes. Rates as in backend.device.link.Link."""
         ...

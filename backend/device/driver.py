@@ -1,6 +1,6 @@
 """One thread per port: carries bytes between a link and its session, and time into it.
 
-It reads late and in bulk: wake-ups cost, decoding does not (platform page, G). The thread outlives
+It reads late and in bulk: wake-ups cost, decoding does not. The thread outlives
 everything but `close`: a vanished port is opened again, a listener's exception is logged.
 """
 
@@ -53,7 +53,7 @@ PROBED = (*CONNECTED, LinkState.CLOSED)
 
 # Codes of a NoAnswer after which it is certain that the unit was not even asked.
 NOT_BEGUN = "not_begun"
-NEVER_ASKED = frozenset({NOT_BEGUN, "not_connected"})
+NEVER_SENT = frozenset({NOT_BEGUN, "not_connected"})
 
 _Command = Callable[[], None]
 
@@ -150,10 +150,10 @@ class Driver:
         def begin() -> None:
             if not future.set_running_or_notify_cancel():
                 return
-            there = self._session.status().identity
-            if meant is not None and there is not None and there.serial_number != meant:
+            identity = self._session.status().identity
+            if meant is not None and identity is not None and identity.serial_number != meant:
                 operation.close()
-                future.set_exception(other_unit(self._opener.url, meant, there.serial_number))
+                future.set_exception(other_unit(self._opener.url, meant, identity.serial_number))
                 return
             self._session.start(operation, future.set_result, future.set_exception)
 
@@ -242,7 +242,7 @@ class Driver:
         try:
             data = link.read(READ_BYTES)
         except LinkError as error:
-            self._lose(error)
+            self._port_lost(error)
             return 0
         now_s = time.monotonic()
         if data:
@@ -263,7 +263,7 @@ class Driver:
             if len(self._unsent) > UNSENT_BYTES_MAX:
                 raise LinkError(f"{link.url}: the port takes no bytes; it is opened anew.")
         except LinkError as error:
-            self._lose(error)
+            self._port_lost(error)
 
     def _set_rate(self, link: Link, rate: int) -> None:
         """What still waits was for the rate before; nobody would understand it now."""
@@ -281,7 +281,7 @@ class Driver:
         except SpindleError as error:
             failure = error if isinstance(error, LinkError) else LinkError(error.message)
             with self._lock:
-                self._lose(failure)
+                self._port_lost(failure)
             return
         with self._lock:
             self._link = link
@@ -291,14 +291,14 @@ class Driver:
                 link.url,
                 os.urandom(8),
                 link.bits_per_second,
-                link.bits_per_second_wanted,
+                link.bits_per_second_requested,
             )
 
     def _drop(self, error: LinkError) -> None:
         with self._lock:
-            self._lose(error)
+            self._port_lost(error)
 
-    def _lose(self, error: LinkError) -> None:
+    def _port_lost(self, error: LinkError) -> None:
         """The port is gone or was never there; the caller holds the lock."""
         now_s = time.monotonic()
         self._close_link()
@@ -337,10 +337,10 @@ class Driver:
         self._link = None
 
 
-def other_unit(url: str, meant: str, there: str | None) -> OtherUnit:
+def other_unit(url: str, meant: str, present: str | None) -> OtherUnit:
     """The refusal of what was meant for a unit that is not on the line any more."""
     return OtherUnit(
-        f"This was meant for the unit {meant}, but {url} leads to {there or 'another one'} now: "
+        f"This was meant for the unit {meant}, but {url} leads to {present or 'another one'} now: "
         "nothing was changed. Connect the unit it was meant for, or look at this one first."
     )
 

@@ -38,7 +38,7 @@ class RideLogs:
     now_us: int
 
 
-class LogPieces(Protocol):
+class LogSegments(Protocol):
     """A log that is coming, from any thread."""
 
     failure: str | None
@@ -50,6 +50,6 @@ class LogPieces(Protocol):
         """Whether the whole log is here."""
         ...
 
-    def take_pieces(self) -> list[bytes]:
+    def take_segments(self) -> list[bytes]:
         """Bytes in order since the last call; together with those before, `received` of them."""
         ...

@@ -26,7 +26,7 @@ from backend.device.conversation import Operation
 from backend.device.driver import Driver
 from backend.device.faults import Fault
 from backend.device.live_values import Snapshot
-from backend.device.ride_logs import LogPieces, RideLog, RideLogs
+from backend.device.ride_logs import LogSegments, RideLog, RideLogs
 from backend.device.snapshot import DeviceStatus
 from backend.device.wear_counters import WearCounters
 from backend.errors import CapabilityMissing
@@ -101,9 +101,9 @@ class Unit(ABC):
 
     def require(self, *needed: Capability) -> None:
         """Raise CapabilityMissing naming the first that the unit does not have."""
-        there = self.capabilities
+        available = self.capabilities
         for capability in needed:
-            if capability not in there:
+            if capability not in available:
                 self._lacks(capability)
 
     @abstractmethod
@@ -199,9 +199,9 @@ class Unit(ABC):
 
     def faults(self) -> Sequence[Fault]:
         """Every fault that is active or was."""
-        return self.faults_told()
+        return self.faults_reported()
 
-    def faults_told(self) -> Sequence[Fault]:
+    def faults_reported(self) -> Sequence[Fault]:
         """Those that were active when the unit was last heard, without asking."""
         return [Fault(name, name) for name in self.status().faults_active]
 
@@ -223,7 +223,7 @@ class Unit(ABC):
         """The unit's CRC-32 over the first `length` bytes of a log."""
         self._lacks(Capability.LOGS)
 
-    def fetch_log(self, log: RideLog, have: int) -> AbstractContextManager[LogPieces]:
+    def fetch_log(self, log: RideLog, have: int) -> AbstractContextManager[LogSegments]:
         """Have the unit send a log from byte `have` on, until the context is left."""
         self._lacks(Capability.LOGS)
 

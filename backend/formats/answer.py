@@ -41,7 +41,7 @@ def encode(outcome: Outcome) -> bytes:
                 "start_known": ride.start_known,
                 "events": [asdict(event) for event in ride.events],
                 "intake": None if ride.intake is None else asdict(ride.intake),
-                "noted": metadata_to_json(ride.noted),
+                "noted": metadata_to_json(ride.metadata),
                 "rows": len(ride.rows.times_us),
                 "channels": [channel_to_json(channel) for channel in ride.rows.channels],
             }
@@ -100,6 +100,6 @@ def decode_ride(entry: dict[str, Any], answer: bytes, at: int) -> tuple[Imported
         start_known=bool(entry["start_known"]),
         events=tuple(RideEvent(**event) for event in entry["events"]),
         intake=None if entry["intake"] is None else Intake(**entry["intake"]),
-        noted=metadata_from_json(entry["noted"]),
+        metadata=metadata_from_json(entry["noted"]),
     )
     return ride, at

@@ -58,8 +58,8 @@ def read_backup(saved: object, name: str) -> Backup:
 
 def of_the_unit(names: Iterable[str]) -> list[str]:
     """Those names whose values were measured or set for one unit and its bike alone."""
-    known = PARAMETER_BY_NAME
-    return [name for name in names if name in known and known[name].of_the_unit]
+    parameters = PARAMETER_BY_NAME
+    return [name for name in names if name in parameters and parameters[name].of_the_unit]
 
 
 def key_of(saved: object) -> str | None:
@@ -92,7 +92,7 @@ def backup_json(
 ) -> dict[str, Any]:
     """A unit's configuration as a file.
 
-    device, config: as the API tells them. units: of each parameter, by name.
+    device, config: as in the API. units: of each parameter, by name.
     """
     serial_number = (device["identity"] or {}).get("serial_number")
     entries = {
@@ -100,5 +100,5 @@ def backup_json(
     }
     name = serial_number or device["id"]
     saved = ConfigurationFile(CONFIGURATION, name, "", device["family"], entries)
-    told = {key: value for key, value in config.items() if key != "parameters"}
-    return {**saved.to_json(), "identity": device["identity"], **told}
+    header = {key: value for key, value in config.items() if key != "parameters"}
+    return {**saved.to_json(), "identity": device["identity"], **header}

@@ -103,7 +103,7 @@ def block_at(data: bytes, at: int) -> Block | None:
     return Block(at, version, kind, log_id, boot_id, seq, t0_us, n, schema_id, payload)
 
 
-def put_block(block: Block) -> bytes:
+def encode_block(block: Block) -> bytes:
     """A block as it lies in a log, its page filled up with 0xFF; `offset` is not used."""
     header = HEADER.pack(
         MAGIC,
@@ -125,7 +125,7 @@ def put_block(block: Block) -> bytes:
 def sync_block(log_id: int, boot_id: int, t0_us: int, unix_us: int) -> bytes:
     """What a host knows that the unit did not: the Unix time at unit time `t0_us` of a boot."""
     payload = SYNC_FIELDS.pack(unix_us, 1000)
-    return put_block(Block(0, VERSION, SYNC, log_id, boot_id, HOST_SEQ, t0_us, 1, 0, payload))
+    return encode_block(Block(0, VERSION, SYNC, log_id, boot_id, HOST_SEQ, t0_us, 1, 0, payload))
 
 
 def _note_between(

@@ -81,19 +81,19 @@ class Growing:
 
     def values(self) -> dict[str, Values]:
         """Every column (n,), missing as NaN."""
-        found: dict[str, Values] = {}
+        columns: dict[str, Values] = {}
         for name, column in self.columns.items():
             values = np.full(self.rows, np.nan)
             values[: len(column)] = column
-            found[name] = values
-        return found
+            columns[name] = values
+        return columns
 
 
 def decimals(values: Values) -> int:
     """Digits behind the point that numbers (n,) were written with, at most `DECIMALS_MAX`."""
-    there = values[np.isfinite(values)]
+    finite = values[np.isfinite(values)]
     for digits in range(DECIMALS_MAX):
-        scaled = there * 10.0**digits
+        scaled = finite * 10.0**digits
         if (np.abs(scaled - np.rint(scaled)) < 1e-4).all():
             return digits
     return DECIMALS_MAX
@@ -109,9 +109,9 @@ def as_written(rule: FieldRule, columns: Mapping[str, Values]) -> FieldRule:
 
     columns: numbers (n,) by name, in the file's units. A channel's usual scale is that of FIT.
     """
-    found = [columns[name] for name in rule.sources if name in columns]
-    there = np.concatenate([values[np.isfinite(values)] for values in found] or [np.empty(0)])
-    inside = there[(there * rule.factor >= rule.lowest) & (there * rule.factor <= rule.highest)]
+    sources = [columns[name] for name in rule.sources if name in columns]
+    finite = np.concatenate([values[np.isfinite(values)] for values in sources] or [np.empty(0)])
+    inside = finite[(finite * rule.factor >= rule.lowest) & (finite * rule.factor <= rule.highest)]
     if not len(inside):
         return rule
     counts = inside * (rule.factor / rule.channel.scale)

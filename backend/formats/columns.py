@@ -128,7 +128,7 @@ FIT_FIELDS: tuple[FieldRule, ...] = (
 
 
 @dataclass
-class Found:
+class Tally:
     """What is counted while one ride is made."""
 
     spread: int = 0
@@ -159,15 +159,15 @@ def rides_of_columns(
     columns: by the file's field names, missing as NaN. unread: fields that are in no column. What
     is in no ride is counted with the first.
     """
-    found = Found()
+    tally = Tally()
     read = {rule: values for rule in fields if (values := rule_values(rule, columns)) is not None}
-    rides: list[tuple[ImportedRide, Found, int]] = []
-    for rows in blocks_of_time(time_s, found):
-        own = found if not rides else Found()
+    rides: list[tuple[ImportedRide, Tally, int]] = []
+    for rows in blocks_of_time(time_s, tally):
+        own = tally if not rides else Tally()
         samples = {rule: values[rows] for rule, values in read.items()}
         ride = ride_of_rows(rows, time_s[rows], samples, own, sport)
         if ride is None:
-            found.drop(NO_VALUE, len(rows))
+            tally.drop(NO_VALUE, len(rows))
             continue
         rides.append((ride, own, len(rows)))
     return [
@@ -177,39 +177,39 @@ def rides_of_columns(
 
 
 def with_intake(
-    ride: ImportedRide, found: Found, rows: int, unread: Mapping[str, int] | None
+    ride: ImportedRide, tally: Tally, rows: int, unread: Mapping[str, int] | None
 ) -> ImportedRide:
     """The ride with what became of the rows it was made of."""
-    kept = len(ride.rows.times_us)
+    row_count = len(ride.rows.times_us)
     intake = Intake(
-        rows_read=rows + sum(found.dropped.values()),
-        rows_kept=kept,
-        rows_joined=rows - kept,
-        rows_spread=found.spread,
-        rows_moved=found.moved,
-        rows_dropped=dict(found.dropped),
-        values_dropped=dict(found.values),
+        rows_read=rows + sum(tally.dropped.values()),
+        rows_kept=row_count,
+        rows_joined=rows - row_count,
+        rows_spread=tally.spread,
+        rows_moved=tally.moved,
+        rows_dropped=dict(tally.dropped),
+        values_dropped=dict(tally.values),
         fields_unread=dict(unread or {}),
     )
     return replace(ride, intake=intake)
 
 
-def blocks_of_time(time_s: Seconds, found: Found) -> list[Places]:
+def blocks_of_time(time_s: Seconds, tally: Tally) -> list[Places]:
     """Rows with believable times, a block for each ride, each in order of time."""
-    there = np.isfinite(time_s) & (time_s < LATEST_S) & (time_s > EPOCH_S)
-    found.drop(NO_TIME, int((~there).sum()))
-    is_set = there & (time_s >= CLOCK_MIN_S)
+    plausible = np.isfinite(time_s) & (time_s < LATEST_S) & (time_s > EPOCH_S)
+    tally.drop(NO_TIME, int((~plausible).sum()))
+    is_set = plausible & (time_s >= CLOCK_MIN_S)
     if is_set.any():
-        found.drop(CLOCK_NOT_SET, int((there & ~is_set).sum()))
-    rows = np.flatnonzero(is_set if is_set.any() else there)
+        tally.drop(CLOCK_NOT_SET, int((plausible & ~is_set).sum()))
+    rows = np.flatnonzero(is_set if is_set.any() else plausible)
     if not len(rows):
         return []
     order = rows[np.argsort(time_s[rows], kind="stable")]
     breaks = np.flatnonzero(np.diff(time_s[order]) > BREAK_S) + 1
     blocks = np.split(order, breaks)
-    kept = [block for block in blocks if not jumped_away(block, blocks)]
-    found.drop(CLOCK_JUMPED, len(rows) - sum(map(len, kept)))
-    return kept
+    in_order = [block for block in blocks if not jumped_away(block, blocks)]
+    tally.drop(CLOCK_JUMPED, len(rows) - sum(map(len, in_order)))
+    return in_order
 
 
 def jumped_away(block: Places, blocks: Sequence[Places]) -> bool:
@@ -224,32 +224,32 @@ def ride_of_rows(
     rows: Places,
     time_s: Seconds,
     read: Mapping[FieldRule, Values],
-    found: Found,
+    tally: Tally,
     sport: str | None,
 ) -> ImportedRide | None:
     """One block of rows, in order of time, as a ride; None when it has no value.
 
     rows: their places in the file. time_s: of each. read: values of each, cleaned on the way.
     """
-    found.moved = int((np.diff(rows) < 0).sum())
+    tally.moved = int((np.diff(rows) < 0).sum())
     unix_us = np.rint(time_s * 1e6).astype(np.int64)
     started_us = int(unix_us[0])
     times_us = unix_us - started_us
     left_out = {rule: cleaned(rule, values) for rule, values in read.items()}
     starts = np.flatnonzero(np.concatenate(([True], np.diff(times_us) > 0)))
     if len(starts) < len(times_us):
-        times_us, starts = spread_out(times_us, starts, read.values(), found)
+        times_us, starts = spread_out(times_us, starts, read.values(), tally)
     times = times_us[starts]
     channels: list[ChannelSpec] = []
     counts: dict[str, Counts] = {}
     for rule, values in read.items():
         merged = first_present(values, starts)
         spikes = without_spikes(rule, merged, times)
-        found.leave_out(rule.channel.name, left_out[rule] + spikes)
+        tally.leave_out(rule.channel.name, left_out[rule] + spikes)
         if np.isfinite(merged).any():
             channels.append(rule.channel)
             counts[rule.channel.name] = rule.channel.to_counts(merged)
-    no_position(counts, channels, found)
+    no_position(counts, channels, tally)
     if not channels:
         return None
     ride_rows = RideRows(tuple(channels), times, counts)
@@ -264,11 +264,11 @@ def ride_of_rows(
 
 def rule_values(rule: FieldRule, columns: Mapping[str, Values]) -> Values | None:
     """The rule's values (n,), from its best source row by row; None when no source is there."""
-    there = [columns[name] for name in rule.sources if name in columns]
-    if not there:
+    sources = [columns[name] for name in rule.sources if name in columns]
+    if not sources:
         return None
-    values = np.array(there[0], dtype=np.float64)
-    for other in there[1:]:
+    values = np.array(sources[0], dtype=np.float64)
+    for other in sources[1:]:
         values = np.where(np.isnan(values), other, values)
     values *= rule.factor
     return values
@@ -286,21 +286,21 @@ def without_spikes(rule: FieldRule, values: Values, times_us: npt.NDArray[np.int
 
     The neighbours agree with each other, so that nothing real looks like this. How many that were.
     """
-    there = np.flatnonzero(np.isfinite(values))
-    if not np.isfinite(rule.rate_max) or len(there) < 3:
+    valid = np.flatnonzero(np.isfinite(values))
+    if not np.isfinite(rule.rate_max) or len(valid) < 3:
         return 0
-    seconds = times_us[there] / 1e6
+    seconds = times_us[valid] / 1e6
     least = SPIKE_STEPS * rule.channel.scale
     with_rate = rule.rate_max * np.diff(seconds) + least
-    steps = np.diff(values[there])
-    across = np.abs(values[there][2:] - values[there][:-2])
+    steps = np.diff(values[valid])
+    across = np.abs(values[valid][2:] - values[valid][:-2])
     fast = np.abs(steps) > with_rate
     back = np.signbit(steps[:-1]) != np.signbit(steps[1:])
     spikes = fast[:-1] & fast[1:] & back & (across <= with_rate[:-1] + with_rate[1:])
     # The first and the last have one neighbour each, which the next one beyond bears out.
     ends = np.array([fast[0] and not fast[1], fast[-1] and not fast[-2]])
-    inner = there[1:-1][spikes]
-    outer = there[[0, -1]][ends]
+    inner = valid[1:-1][spikes]
+    outer = valid[[0, -1]][ends]
     values[inner] = np.nan
     values[outer] = np.nan
     return len(inner) + len(outer)
@@ -310,14 +310,14 @@ def spread_out(
     times_us: npt.NDArray[np.int64],
     starts: Places,
     read: Iterable[Values],
-    found: Found,
+    tally: Tally,
 ) -> tuple[npt.NDArray[np.int64], Places]:
     """Give rows of one time that differ times of their own; times and beginnings of rows now."""
     differ = np.zeros(len(starts), dtype=bool)
     for values in read:
-        there = np.isfinite(values)
-        highest = np.maximum.reduceat(np.where(there, values, -np.inf), starts)
-        lowest = np.minimum.reduceat(np.where(there, values, np.inf), starts)
+        valid = np.isfinite(values)
+        highest = np.maximum.reduceat(np.where(valid, values, -np.inf), starts)
+        lowest = np.minimum.reduceat(np.where(valid, values, np.inf), starts)
         differ |= highest > lowest
     sizes = np.diff(np.append(starts, len(times_us)))
     if not differ.any():
@@ -328,11 +328,11 @@ def spread_out(
     place = np.arange(len(times_us)) - starts[group]
     moved = np.where(differ[group], place * (room_us // sizes)[group], 0)
     times = times_us + moved
-    found.spread += int(sizes[differ].sum())
+    tally.spread += int(sizes[differ].sum())
     return times, np.flatnonzero(np.concatenate(([True], np.diff(times) > 0)))
 
 
-def no_position(counts: dict[str, Counts], channels: list[ChannelSpec], found: Found) -> None:
+def no_position(counts: dict[str, Counts], channels: list[ChannelSpec], tally: Tally) -> None:
     """0, 0 is where a receiver without a fix is, and half a position is none."""
     if LATITUDE not in counts or LONGITUDE not in counts:
         return
@@ -340,8 +340,8 @@ def no_position(counts: dict[str, Counts], channels: list[ChannelSpec], found: F
     latitude, longitude = counts[LATITUDE], counts[LONGITUDE]
     nowhere = (latitude == 0) & (longitude == 0)
     half = (latitude == missing[LATITUDE]) != (longitude == missing[LONGITUDE])
-    found.leave_out(LATITUDE, int(nowhere.sum()))
-    found.leave_out(LONGITUDE, int(nowhere.sum()))
+    tally.leave_out(LATITUDE, int(nowhere.sum()))
+    tally.leave_out(LONGITUDE, int(nowhere.sum()))
     for values, name in ((latitude, LATITUDE), (longitude, LONGITUDE)):
         values[nowhere | half] = missing[name]
         if (values == missing[name]).all():

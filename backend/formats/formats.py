@@ -82,18 +82,18 @@ def read_file(name: str, data: bytes, answer: TableAnswer | None = None) -> Outc
 def read_gzip(name: str, data: bytes, answer: TableAnswer | None = None) -> Outcome:
     """The one file within a gzip file; `partial` where not all of it came out."""
     try:
-        found = inflate(data)
+        inflated = inflate(data)
     except TooLarge:
-        told = f"It becomes more than {INFLATED_BYTES_MAX >> 20} MB, which no ride has."
-        return rejected("expands_too_much", told)
-    if found.data.startswith(GZIP):
+        sentence = f"It becomes more than {INFLATED_BYTES_MAX >> 20} MB, which no ride has."
+        return rejected("expands_too_much", sentence)
+    if inflated.data.startswith(GZIP):
         return rejected("nested_too_deep", "A gzip file within a gzip file: unpack it first.", 0)
-    if not found.data and found.trouble:
-        return rejected("container_damaged", found.trouble)
-    outcome = read_file(inner_name(name), found.data, answer)
-    if found.trouble is None or outcome.state == REJECTED:
+    if not inflated.data and inflated.error:
+        return rejected("container_damaged", inflated.error)
+    outcome = read_file(inner_name(name), inflated.data, answer)
+    if inflated.error is None or outcome.state == REJECTED:
         return outcome
-    detail = f"{found.trouble} {outcome.detail or ''}".strip()
+    detail = f"{inflated.error} {outcome.detail or ''}".strip()
     code = outcome.code or "container_damaged"
     return replace(outcome, state=PARTIAL, code=code, detail=detail)
 
@@ -104,14 +104,14 @@ def refused_by_head(name: str, head: bytes) -> Outcome | None:
         return None
     if head.startswith(GZIP):
         inner = inflated_head(head, SNIFFED_BYTES)
-        known = bool(inner) and not inner.startswith(GZIP)
-        return refused_by_head(inner_name(name), inner) if known else None
+        other_kind = bool(inner) and not inner.startswith(GZIP)
+        return refused_by_head(inner_name(name), inner) if other_kind else None
     return None if reader_for(name, head) is not None else refusal(name, head)
 
 
 def refusal(name: str, head: bytes) -> Outcome:
     """Why nobody reads a file."""
-    kind = known_kind(head)
+    kind = kind_of_head(head)
     if kind is not None:
         return rejected("unsupported_format", f"This is {kind}. {ADVICE}", 0)
     only = only_times(head)
@@ -119,8 +119,8 @@ def refusal(name: str, head: bytes) -> Outcome:
         detail = f"The only column is {only}: times, and nothing that was measured at them."
         return rejected("no_records", detail, 0)
     if name.lower().endswith((".csv", ".txt", ".tsv")):
-        told = "time, timestamp, time_utc, or t_s and secs for seconds from the start"
-        return rejected("unknown_format", f"No line of its head names a time column ({told}).", 0)
+        names = "time, timestamp, time_utc, or t_s and secs for seconds from the start"
+        return rejected("unknown_format", f"No line of its head names a time column ({names}).", 0)
     return rejected(
         "unknown_format",
         f"The first bytes ({head[:8].hex(' ')}) are of no ride format we know. {ADVICE}",
@@ -144,7 +144,7 @@ def reader_for(name: str, head: bytes) -> Reader | None:
         return track
     if looks_like_mahle(head):
         return read_mahle
-    if known_kind(head) is None:
+    if kind_of_head(head) is None:
         if looks_like_table(head):
             return read_table
         named_fit = name.lower().endswith(".fit")
@@ -163,7 +163,7 @@ def track_reader(head: bytes) -> Reader | None:
     return read_tcx if TCX_ROOT.search(text) else None
 
 
-def known_kind(head: bytes) -> str | None:
+def kind_of_head(head: bytes) -> str | None:
     """What the file is when it is something well known that is not a ride."""
     for signature, kind in SIGNATURES:
         if head.startswith(signature):

@@ -28,7 +28,7 @@ from firmware_protocol.parameter_values import in_one_spelling
 
 NAME_MAX = 80
 COMMENT_MAX = 2000
-KNOWN = {"format", "version", "name", "comment", "family", "parameters"}
+FIELDS = {"format", "version", "name", "comment", "family", "parameters"}
 OF_A_UNIT = {"identity", "unit_key", "generation", "crc32"}
 
 
@@ -101,5 +101,5 @@ def faults_of_words(file: ConfigurationFile) -> Iterator[FieldError]:
 
 def unknown_fields(saved: dict[str, Any]) -> Iterator[FieldError]:
     """What no document has."""
-    for name in sorted(str(key) for key in set(saved) - KNOWN - OF_A_UNIT):
+    for name in sorted(str(key) for key in set(saved) - FIELDS - OF_A_UNIT):
         yield FieldError(name[:NAME_MAX], "unknown", f"{name[:NAME_MAX]} is no part of a document.")

@@ -31,7 +31,7 @@ class ImportedRide:
     """One ride of a file. started_us: Unix time of its first row. notes: what was put right.
 
     context: what the file knows of the bike. start_known: False where `started_us` means nothing.
-    events, noted: what the file tells besides its rows. intake: what became of its rows and fields.
+    events, metadata: of the file, beside its rows. intake: what became of its rows and fields.
     """
 
     started_us: int
@@ -43,7 +43,7 @@ class ImportedRide:
     start_known: bool = True
     events: tuple[RideEvent, ...] = ()
     intake: Intake | None = None
-    noted: DeviceMetadata = DeviceMetadata()  # noqa: RUF009 - frozen
+    metadata: DeviceMetadata = DeviceMetadata()  # noqa: RUF009 - frozen
 
     @property
     def span_s(self) -> tuple[float, float]:

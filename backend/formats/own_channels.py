@@ -30,10 +30,10 @@ class Column:
 
 def rules_of(columns: Mapping[str, Column], sport: str | None) -> tuple[FieldRule, ...]:
     """A rule for every column that has a value."""
-    known = tuple(
+    rules = tuple(
         rule for rule in FIT_FIELDS if sport not in ON_FOOT or rule.channel.name != RIDER_POWER
     )
-    taken = {source for rule in known for source in rule.sources}
+    taken = {source for rule in rules for source in rule.sources}
     names = {rule.channel.name for rule in FIT_FIELDS}
     others = []
     for name, column in columns.items():
@@ -41,7 +41,7 @@ def rules_of(columns: Mapping[str, Column], sport: str | None) -> tuple[FieldRul
             continue
         own = f"{name}_of_file" if name in names else name
         others.append(replace(rule(own, column), sources=(name,)))
-    return known + tuple(others)
+    return rules + tuple(others)
 
 
 def rule(name: str, column: Column) -> FieldRule:

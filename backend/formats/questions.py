@@ -88,12 +88,12 @@ def answer_to_json(answer: TableAnswer) -> dict[str, object]:
 def lacking(question: TableQuestion, answer: TableAnswer | None) -> list[str]:
     """What the answer does not say, or says wrongly: `time_zone`, `rows_per_second`, columns."""
     answer = answer or TableAnswer()
-    found = []
+    missing = []
     if question.time_zone and (answer.time_zone is None or zone_of(answer.time_zone) is None):
-        found.append("time_zone")
+        missing.append("time_zone")
     rate = answer.rows_per_second
     if question.rows_per_second and not (rate is not None and 0 < rate <= ROWS_PER_SECOND_MAX):
-        found.append("rows_per_second")
-    asked = [column for column in question.columns if column.units]
-    found += [c.name for c in asked if answer.units.get(c.name) not in c.units]
-    return found
+        missing.append("rows_per_second")
+    with_units = [column for column in question.columns if column.units]
+    missing += [c.name for c in with_units if answer.units.get(c.name) not in c.units]
+    return missing

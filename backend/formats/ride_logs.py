@@ -90,18 +90,18 @@ class Group:
 
 @dataclass(frozen=True)
 class LogRide:
-    """What one log became. whole: share of its blocks that are here; ended: by the unit."""
+    """What one log became. complete_share: of its blocks, those present; ended: by the unit."""
 
     ride: ImportedRide | None
-    whole: float
+    complete_share: float
     ended: bool
 
 
 def read_blocks(data: bytes) -> Outcome:
     """A file of blocks -> what came of it. Never raises on any bytes."""
-    found = scan(data)
+    scanned = scan(data)
     logs: dict[tuple[int, int], dict[int, Block]] = {}
-    for block in found.blocks:
+    for block in scanned.blocks:
         if block.version == VERSION and block.log_id:
             # The first of equals: a log fetched twice into one file is one log.
             logs.setdefault((block.boot_id, block.log_id), {}).setdefault(block.seq, block)
@@ -111,23 +111,27 @@ def read_blocks(data: bytes) -> Outcome:
     rides = tuple(result.ride for result in results if result.ride is not None)
     if not rides:
         return rejected("no_records", "No block of the file holds rows that can be read.", 0)
-    return concluded(found, results, rides)
+    return concluded(scanned, results, rides)
 
 
-def concluded(found: Scan, results: Sequence[LogRide], rides: tuple[ImportedRide, ...]) -> Outcome:
+def concluded(
+    scanned: Scan, results: Sequence[LogRide], rides: tuple[ImportedRide, ...]
+) -> Outcome:
     """The outcome of the logs of a file."""
-    whole = min(result.whole for result in results)
-    if found.damaged or whole < 1.0:
-        detail = f"{whole:.1%} of the log's blocks are here"
-        if found.damaged:
-            detail += f"; {found.damaged} bytes from byte {found.first_damage} on are damaged"
-        return Outcome(PARTIAL, rides, "damaged", f"{detail}.", found.first_damage, whole)
+    complete_share = min(result.complete_share for result in results)
+    if scanned.damaged or complete_share < 1.0:
+        detail = f"{complete_share:.1%} of the log's blocks are here"
+        if scanned.damaged:
+            detail += f"; {scanned.damaged} bytes from byte {scanned.first_damage} on are damaged"
+        return Outcome(
+            PARTIAL, rides, "damaged", f"{detail}.", scanned.first_damage, complete_share
+        )
     if not all(result.ended for result in results):
         detail = (
             "The log has no end. The unit lost its power before it was closed, and at most a "
             "second is missing; or only its beginning was fetched."
         )
-        return Outcome(PARTIAL, rides, "truncated", detail, None, whole)
+        return Outcome(PARTIAL, rides, "truncated", detail, None, complete_share)
     return Outcome(COMPLETE, rides, completeness=1.0)
 
 
@@ -136,17 +140,17 @@ def ride_of_log(blocks: Sequence[Block]) -> LogRide:
     own = [block for block in blocks if block.seq != HOST_SEQ]
     ends = [block for block in own if block.type == END and len(block.payload) >= END_FIELDS.size]
     highest = max((block.seq for block in own), default=0)
-    whole = len(own) / (highest + 1)
+    complete_share = len(own) / (highest + 1)
     notes: list[str] = []
     context = context_of(own, notes)
     read = [(group, block) for block, group in grouped(own, notes) if group is not None]
     if not read:
-        return LogRide(None, whole, bool(ends))
+        return LogRide(None, complete_share, bool(ends))
     group = most_rows(read, notes)
     mine = [block for one, block in read if one == group]
     laid = laid_out(group, mine, notes)
     if laid is None:
-        return LogRide(None, whole, bool(ends))
+        return LogRide(None, complete_share, bool(ends))
     t0_us, rows = laid
     if ends:
         notes += lost_in_the_unit(ends[-1].payload)
@@ -162,7 +166,7 @@ def ride_of_log(blocks: Sequence[Block]) -> LogRide:
         start_known=started_us is not None,
         events=tuple(events_of(own, t0_us, int(rows.times_us[-1]))),
     )
-    return LogRide(ride, whole, bool(ends))
+    return LogRide(ride, complete_share, bool(ends))
 
 
 def lost_in_the_unit(payload: bytes) -> list[str]:
@@ -227,9 +231,9 @@ def grouped(blocks: Sequence[Block], notes: list[str]) -> list[tuple[Block, Grou
     for block in blocks:
         if block.type != DATA:
             continue
-        known = schemas.get(block.schema_id, [])
-        before = [group for seq, group in known if seq < block.seq]
-        group = before[-1] if before else (known[0][1] if known else None)
+        schema_groups = schemas.get(block.schema_id, [])
+        before = [group for seq, group in schema_groups if seq < block.seq]
+        group = before[-1] if before else (schema_groups[0][1] if schema_groups else None)
         if group is not None and len(block.payload) != 2 * block.n * len(group.channels):
             group = None
         unread += group is None
@@ -260,10 +264,10 @@ def group_of(payload: bytes) -> Group | None:
 def channel_of(channel_id: int, scale: float) -> ChannelSpec:
     """A channel by its id: names never change, a scale is the one the counts were made with."""
     shortest = float(str(np.float32(scale)))
-    known = REGISTERED.get(channel_id)
-    if known is None:
+    registered = REGISTERED.get(channel_id)
+    if registered is None:
         return ChannelSpec(f"channel_{channel_id}", "", shortest)
-    return ChannelSpec(known.name, known.unit, shortest)
+    return ChannelSpec(registered.name, registered.unit, shortest)
 
 
 def most_rows(read: Sequence[tuple[Group, Block]], notes: list[str]) -> Group:
@@ -285,20 +289,20 @@ def laid_out(
     """
     middle_us = int(np.median(np.array([block.t0_us for block in blocks], dtype=np.float64)))
     span_us = int(SPAN_S_MAX * 1e6)
-    kept = [b for b in blocks if b.n > 0 and abs(b.t0_us - middle_us) < span_us]
-    if len(kept) < len(blocks):
-        notes.append(f"{len(blocks) - len(kept)} blocks without a believable time were left out")
-    if not kept:
+    near = [b for b in blocks if b.n > 0 and abs(b.t0_us - middle_us) < span_us]
+    if len(near) < len(blocks):
+        notes.append(f"{len(blocks) - len(near)} blocks without a believable time were left out")
+    if not near:
         return None
-    t0_us = min(block.t0_us for block in kept)
-    firsts = [round((block.t0_us - t0_us) / group.period_us) for block in kept]
-    count = max(first + block.n for first, block in zip(firsts, kept, strict=True))
+    t0_us = min(block.t0_us for block in near)
+    firsts = [round((block.t0_us - t0_us) / group.period_us) for block in near]
+    count = max(first + block.n for first, block in zip(firsts, near, strict=True))
     if count > ROWS_MAX:
         notes.append(f"rows after the first {ROWS_MAX} were left out")
         count = ROWS_MAX
     width = len(group.channels)
     grid: Rows16 = np.full((count, width), MISSING_INT16, np.int16)
-    for first, block in zip(firsts, kept, strict=True):
+    for first, block in zip(firsts, near, strict=True):
         rows = np.frombuffer(block.payload, "<i2").reshape(block.n, width)[: max(0, count - first)]
         grid[first : first + len(rows)] = rows
     times_us = np.arange(count, dtype=np.int64) * group.period_us
@@ -312,29 +316,29 @@ def laid_out(
 def events_of(blocks: Sequence[Block], t0_us: int, length_us: int) -> list[RideEvent]:
     """What EVENT blocks tell of the ride that begins at unit time `t0_us`, which settings were in
     force by its CONFIG blocks, and when its clock was set; in order of time."""
-    found: list[RideEvent] = []
+    events: list[RideEvent] = []
     for block in blocks:
         if block.type != EVENT:
             continue
         for t_us, code, value in events_in(block):
             kind = EVENT_KINDS.get(code)
             if kind is not None and 0 <= t_us - t0_us <= length_us:
-                found.append(RideEvent((t_us - t0_us) / 1e6, kind, value))
-    found = sorted(found, key=lambda event: event.t_s)[:EVENTS_MAX]
-    told = [*settings_of(blocks, t0_us, length_us), *clock_of(blocks, t0_us, length_us)]
-    return sorted([*found, *told], key=lambda event: event.t_s)
+                events.append(RideEvent((t_us - t0_us) / 1e6, kind, value))
+    events = sorted(events, key=lambda event: event.t_s)[:EVENTS_MAX]
+    markers = [*settings_of(blocks, t0_us, length_us), *clock_of(blocks, t0_us, length_us)]
+    return sorted([*events, *markers], key=lambda event: event.t_s)
 
 
 def settings_of(blocks: Sequence[Block], t0_us: int, length_us: int) -> list[RideEvent]:
     """The changes of settings by the CONFIG blocks, which a unit writes again at each of them. What
     was changed before the ride was in force at its start."""
-    told = [
+    settings = [
         RideEvent(max(0, block.t0_us - t0_us) / 1e6, SETTINGS, CONFIG_HEAD.unpack_from(config)[3])
         for block in blocks
         if block.type == CONFIG and len(config := block.payload) >= CONFIG_HEAD.size
     ]
-    in_force = told[0].value if told else None
-    return [event for event in settings_changes(told, in_force) if event.t_s <= length_us / 1e6]
+    in_force = settings[0].value if settings else None
+    return [event for event in settings_changes(settings, in_force) if event.t_s <= length_us / 1e6]
 
 
 def events_in(block: Block) -> Iterator[tuple[int, int, int]]:
@@ -350,14 +354,14 @@ def events_in(block: Block) -> Iterator[tuple[int, int, int]]:
 
 def starts_of(blocks: Sequence[Block], t0_us: int) -> list[tuple[int, int]]:
     """By each believable SYNC, in their order: its unit time, and the Unix time of `t0_us`."""
-    found = []
+    starts = []
     for block in blocks:
         if block.type == SYNC and len(block.payload) >= SYNC_FIELDS.size:
             unix_us, _ = SYNC_FIELDS.unpack_from(block.payload)
             started_us = int(unix_us) - (block.t0_us - t0_us)
             if EPOCH_S * 1e6 < started_us < LATEST_S * 1e6:
-                found.append((block.t0_us, started_us))
-    return found
+                starts.append((block.t0_us, started_us))
+    return starts
 
 
 def start_of(blocks: Sequence[Block], t0_us: int) -> int | None:
@@ -367,8 +371,8 @@ def start_of(blocks: Sequence[Block], t0_us: int) -> int | None:
     the host appended later counts only without one.
     """
     own = starts_of([block for block in blocks if block.seq != HOST_SEQ], t0_us)
-    told = own or starts_of(blocks, t0_us)[:1]
-    return told[-1][1] if told else None
+    starts = own or starts_of(blocks, t0_us)[:1]
+    return starts[-1][1] if starts else None
 
 
 def clock_of(blocks: Sequence[Block], t0_us: int, length_us: int) -> list[RideEvent]:

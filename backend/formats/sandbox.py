@@ -28,7 +28,7 @@ from backend.formats.worker import (
     DATA_BYTES,
     FRAME,
     MORE,
-    NOBODY_ASKED,
+    NO_CALLER,
     OUT_OF_MEMORY,
     OVERTIME,
     WORN,
@@ -69,14 +69,14 @@ class Child:
             start_new_session=True,
             creationflags=getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0),
         )
-        self._told: deque[bytes] = deque(maxlen=50)
+        self._stderr_lines: deque[bytes] = deque(maxlen=50)
         self._listener = threading.Thread(target=self._listen, daemon=True)
         self._listener.start()
         self.worn = False
         self.late = False
         self.has_more = False
 
-    def ask(self, request: dict[str, object], wall_s: float) -> bytes | None:
+    def send(self, request: dict[str, object], wall_s: float) -> bytes | None:
         """The answer, or its first part; as `more`."""
         assert self.process.stdin is not None
         # What it did not take, it has no answer to either.
@@ -110,7 +110,7 @@ class Child:
     @property
     def last_words(self) -> str:
         """The end of what it wrote to standard error."""
-        return b"".join(self._told).decode(errors="replace").strip()
+        return b"".join(self._stderr_lines).decode(errors="replace").strip()
 
     def _received(self) -> bytes | None:
         answers = self.process.stdout
@@ -137,7 +137,7 @@ class Child:
     def _listen(self) -> None:
         assert self.process.stderr is not None
         for line in self.process.stderr:
-            self._told.append(line)
+            self._stderr_lines.append(line)
 
 
 class Readers:
@@ -161,12 +161,12 @@ class Readers:
         name: str,
         wall_s: float = WALL_S,
         cpu_s: float = CPU_S,
-        said: TableAnswer | None = None,
+        table_answer: TableAnswer | None = None,
     ) -> Outcome:
         """A file -> what came of it; the death of its reader is an outcome too.
 
         path: where the bytes are. name: what the file was called, which may decide the format.
-        wall_s, cpu_s: how long a child may take, and compute. said: what was said of a table.
+        wall_s, cpu_s: how long a child may take, and compute. table_answer: as of `read_file`.
         Raises ReadingStopped after `stop`.
         """
         if path.is_file() and (refused := refused_here(path, name)) is not None:
@@ -175,21 +175,21 @@ class Readers:
             "path": str(path),
             "name": printable(name),
             "cpu_s": cpu_s,
-            "said": answer_to_json(said) if said else None,
+            "said": answer_to_json(table_answer) if table_answer else None,
         }
         while True:
             child = self._taken()
             try:
-                answer = child.ask(request, wall_s)
+                answer = child.send(request, wall_s)
             except BaseException:
                 self._lost(child)
                 raise
             if answer is not None:
-                self._given_back(child)
+                self._return_child(child)
                 return decode(answer)
             code = self._lost(child)
-            if code != NOBODY_ASKED:
-                return told_of_death(child, code, wall_s, cpu_s)
+            if code != NO_CALLER:
+                return death_outcome(child, code, wall_s, cpu_s)
 
     def unpack(self, path: Path, wall_s: float = WALL_S) -> Iterator[Entry | Left]:
         """The files of an archive, one at a time, as whoever asks takes them; then what is left.
@@ -199,24 +199,24 @@ class Readers:
         """
         request: dict[str, object] = {"path": str(path), "unpack": True, "cpu_s": UNPACK_CPU_S}
         child = self._taken()
-        whole = False
+        is_complete = False
         try:
-            frame = child.ask(request, wall_s)
+            frame = child.send(request, wall_s)
             while frame is not None:
-                whole = not child.has_more
+                is_complete = not child.has_more
                 yield decode_frame(frame)
-                if whole:
+                if is_complete:
                     return
                 frame = child.more(wall_s)
         finally:
-            if whole:
-                self._given_back(child)
+            if is_complete:
+                self._return_child(child)
             else:
                 code = self._lost(child)
-        if code == NOBODY_ASKED:
+        if code == NO_CALLER:
             yield from self.unpack(path, wall_s)
         else:
-            raise BrokenArchive(told_of_death(child, code, wall_s, UNPACK_CPU_S))
+            raise BrokenArchive(death_outcome(child, code, wall_s, UNPACK_CPU_S))
 
     def stop(self) -> None:
         """End every child, and begin no other."""
@@ -242,7 +242,7 @@ class Readers:
             self._busy.add(child)
             return child
 
-    def _given_back(self, child: Child) -> None:
+    def _return_child(self, child: Child) -> None:
         with self._lock:
             self._busy.discard(child)
             keeps = not (self._stopped or child.worn or len(self._waiting) >= self._waiting_max)
@@ -275,14 +275,14 @@ def read_in_child(
     name: str,
     wall_s: float = WALL_S,
     cpu_s: float = CPU_S,
-    said: TableAnswer | None = None,
+    table_answer: TableAnswer | None = None,
 ) -> Outcome:
     """As `Readers.read`, by a child of its own that ends with it."""
     readers = Readers(waiting_max=0)
-    return readers.read(path, name, wall_s, cpu_s, said)
+    return readers.read(path, name, wall_s, cpu_s, table_answer)
 
 
-def told_of_death(child: Child, code: int, wall_s: float, cpu_s: float) -> Outcome:
+def death_outcome(child: Child, code: int, wall_s: float, cpu_s: float) -> Outcome:
     """Why a file has no answer, as an outcome."""
     if child.late:
         return rejected(TOO_SLOW, f"Reading took longer than {wall_s:g} s and was stopped.")
@@ -292,8 +292,8 @@ def told_of_death(child: Child, code: int, wall_s: float, cpu_s: float) -> Outco
         return rejected(
             "too_much_memory", f"Reading needed more than {DATA_BYTES >> 20} MB; stopped."
         )
-    told = child.last_words[-STDERR_SHOWN:]
-    return rejected("parser_crashed", f"The reader died ({code}). {told}".strip())
+    stderr_text = child.last_words[-STDERR_SHOWN:]
+    return rejected("parser_crashed", f"The reader died ({code}). {stderr_text}".strip())
 
 
 def printable(name: str) -> str:

@@ -24,7 +24,7 @@ from typing import Any
 CPU_S = 20.0
 DATA_BYTES = 512 * 1024 * 1024
 OUT_OF_MEMORY = 3
-NOBODY_ASKED = 4
+NO_CALLER = 4
 # A child holds about 60 MB: it is given back when no files come, and begun anew with the next.
 IDLE_S = 300.0
 # What was once allocated may never come back to the system: the next large file would fail for it.
@@ -82,10 +82,10 @@ def is_worn() -> bool:
     Not by getrusage: what it tells after a start is what the server held. False where only that is.
     """
     try:
-        told = Path("/proc/self/status").read_text()
+        status = Path("/proc/self/status").read_text()
     except OSError:
         return False
-    peaks_kb = [line.split()[1] for line in told.splitlines() if line.startswith("VmHWM:")]
+    peaks_kb = [line.split()[1] for line in status.splitlines() if line.startswith("VmHWM:")]
     return any(int(peak_kb) * 1024 > WORN_BYTES for peak_kb in peaks_kb)
 
 
@@ -93,12 +93,12 @@ def requests() -> bool:
     """Whether another request comes; False after a long time without, where that can be told."""
     if not hasattr(select, "poll"):
         return True
-    asked = select.poll()
-    asked.register(sys.stdin.fileno(), select.POLLIN)
-    return bool(asked.poll(IDLE_S * 1000))
+    poll = select.poll()
+    poll.register(sys.stdin.fileno(), select.POLLIN)
+    return bool(poll.poll(IDLE_S * 1000))
 
 
-def answers(asked: dict[str, Any]) -> Iterator[tuple[tuple[bytes, ...], bool]]:
+def answers(request: dict[str, Any]) -> Iterator[tuple[tuple[bytes, ...], bool]]:
     """What a request is answered with, in pieces, and whether it is the last: one answer for a
     file, one a file for an archive."""
     from backend.formats.answer import encode
@@ -106,12 +106,12 @@ def answers(asked: dict[str, Any]) -> Iterator[tuple[tuple[bytes, ...], bool]]:
     from backend.formats.formats import read_file
     from backend.formats.questions import answer_from_json
 
-    path = Path(asked["path"])
-    if asked.get("unpack"):
+    path = Path(request["path"])
+    if request.get("unpack"):
         yield from frames(path)
     else:
-        said = answer_from_json(asked.get("said"))
-        yield (encode(read_file(asked["name"], path.read_bytes(), said)),), True
+        answer = answer_from_json(request.get("said"))
+        yield (encode(read_file(request["name"], path.read_bytes(), answer)),), True
 
 
 def say(answer: tuple[bytes, ...], flags: int) -> None:
@@ -130,14 +130,14 @@ def main() -> int:
 
     for number in range(1, FILES_MAX + 1):
         if not requests():
-            return NOBODY_ASKED
+            return NO_CALLER
         line = sys.stdin.buffer.readline()
         if not line:
             return 0
-        asked = json.loads(line)
-        limit_time(asked["cpu_s"])
+        request = json.loads(line)
+        limit_time(request["cpu_s"])
         try:
-            for answer, last in answers(asked):
+            for answer, last in answers(request):
                 if not last:
                     say(answer, MORE)
                     continue

@@ -135,8 +135,8 @@ async def create_upload(
 async def get_upload_offset(upload_id: str, uploads: TheUploads) -> Response:
     """How many bytes have arrived: where to go on after a break."""
     upload = await run_in_threadpool(uploads.get, upload_id)
-    stands = {"upload_offset": str(upload.received), "upload_length": str(upload.length)}
-    return _tus_response(200, **stands, **_expiry(upload))
+    headers = {"upload_offset": str(upload.received), "upload_length": str(upload.length)}
+    return _tus_response(200, **headers, **_expiry(upload))
 
 
 @router.patch(
@@ -315,8 +315,8 @@ def _mismatch() -> Response:
 
 def _expiry(upload: Any, received: int | None = None) -> dict[str, str]:
     """`Upload-Expires` of an upload that has not arrived, as RFC 9110 writes a time."""
-    stands = upload.received if received is None else received
-    if upload.expires_us is None or stands >= upload.length:
+    offset = upload.received if received is None else received
+    if upload.expires_us is None or offset >= upload.length:
         return {}
     return {"upload_expires": formatdate(upload.expires_us // 1_000_000, usegmt=True)}
 

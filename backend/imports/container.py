@@ -59,18 +59,18 @@ class Container:
         self._desk = desk
         self._upload = upload
         self._over_us = over_us
-        self._known = {part.name: part for part in store.uploads.parts(upload.id)}
+        self._existing_parts = {part.name: part for part in store.uploads.parts(upload.id)}
 
-    def read(self, found: Iterator[Entry | Left]) -> Upload:
+    def read(self, contents: Iterator[Entry | Left]) -> Upload:
         """Every file within to its end, then the summary. Raises ReadingStopped."""
         going: deque[Future[Upload]] = deque()
         broken: Outcome | None = None
         left = Left(Titles({}), 0)
         try:
-            for told in found:
-                if isinstance(told, Left):
-                    left, broken = told, told.trouble
-                elif (promise := self._take(told)) is not None:
+            for item in contents:
+                if isinstance(item, Left):
+                    left, broken = item, item.error
+                elif (promise := self._take(item)) is not None:
                     going.append(promise)
                 if len(going) > AHEAD_MAX:
                     settled(going.popleft())
@@ -87,7 +87,7 @@ class Container:
 
     def _take(self, entry: Entry) -> Future[Upload] | None:
         """An upload for a file within; the promise of what becomes of it, if that is open."""
-        part = self._known.get(entry.name)
+        part = self._existing_parts.get(entry.name)
         if part is not None and part.state in (COMPLETE, PARTIAL, REJECTED):
             return None
         if entry.data is None:
@@ -127,11 +127,11 @@ class Container:
                     self._name(part, self._store.rides.get(ride_id), titles)
 
     def _name(self, part: Upload, ride: Ride, titles: Titles) -> None:
-        told = titles.by_name.get(part.name) or started_at(titles, ride.started_us)
+        ride_title = titles.by_name.get(part.name) or started_at(titles, ride.started_us)
         # Somebody may have named it here, and the container come once more after a crash.
-        if told is None or ride.name != ride_name(part.name):
+        if ride_title is None or ride.name != ride_name(part.name):
             return
-        title, about = told
+        title, about = ride_title
         notes = "\n".join(text for text in (about, ride.notes) if text)
         self._store.rides.patch(ride.id, title or None, notes if about else None)
 
@@ -140,12 +140,12 @@ class Container:
     ) -> Upload:
         counted = Counter(standing(part) for part in parts)
         made = [i for part in parts if standing(part) != HERE for i in part.ride_ids]
-        beside = [i for part in parts if standing(part) == HERE for i in part.ride_ids]
+        related = [i for part in parts if standing(part) == HERE for i in part.ride_ids]
         state, code = judged(counted, broken)
-        told = summary(counted, left_alone)
-        detail = f"{told} {broken.detail}" if broken is not None and broken.detail else told
+        sentence = summary(counted, left_alone)
+        detail = f"{sentence} {broken.detail}" if broken is not None and broken.detail else sentence
         verdict = Verdict(state, code, detail, None, None, self._over_us)
-        return self._store.uploads.conclude(self._upload.id, verdict, beside, made)
+        return self._store.uploads.conclude(self._upload.id, verdict, related, made)
 
 
 def settled(promise: Future[Upload]) -> None:
@@ -184,11 +184,11 @@ def summary(counted: Counter[str], left_alone: int) -> str:
         (ASKS, "waiting for what only their owner knows"),
         (REJECTED, "no rides"),
     )
-    told = ", ".join(f"{counted[one]} {words}" for one, words in kinds if counted[one])
+    sentence = ", ".join(f"{counted[one]} {words}" for one, words in kinds if counted[one])
     total = sum(counted.values())
     files = f"{total} file{'' if total == 1 else 's'}"
     alone = f" {left_alone} other files of the export were left alone." if left_alone else ""
-    return (f"{files}: {told}." if told else "No file within.") + alone
+    return (f"{files}: {sentence}." if sentence else "No file within.") + alone
 
 
 def started_at(titles: Titles, started_us: int) -> tuple[str, str] | None:

@@ -60,11 +60,11 @@ Seconds = npt.NDArray[np.int64]
 class Kind(Enum):
     """How a file's ride is to one that is here.
 
-    KNOWN: all of it is here. FULLER: it has all that is here and more. OTHER_DEVICE: the same ride
+    EXISTING: all of it is here. FULLER: it has that and more. OTHER_DEVICE: the same ride
     by another device. PARTLY: the same recording, each with something that the other lacks.
     """
 
-    KNOWN = "known"
+    EXISTING = "known"
     FULLER = "fuller"
     OTHER_DEVICE = "other_device"
     PARTLY = "partly"
@@ -79,11 +79,11 @@ class DuplicateMatch:
 
 
 def find_duplicate(
-    rides: RideStore, imported: ImportedRide, whole: bool, upload_id: str | None
+    rides: RideStore, imported: ImportedRide, is_complete: bool, upload_id: str | None
 ) -> DuplicateMatch | None:
     """The ride that a file's ride is, or is beside of; None for a new one.
 
-    whole: nothing of it is missing in its file. upload_id: rides of this upload do not count.
+    is_complete: nothing of it is missing in its file. upload_id: rides of this upload do not count.
     """
     if not imported.start_known:
         return None
@@ -92,12 +92,12 @@ def find_duplicate(
     sought = Sought(from_us=start_us - LONGEST_US, to_us=stop_us + 1)
     names = (LATITUDE, LONGITUDE, *TOLERANCES)
     theirs: BySecond | None = None
-    found: list[DuplicateMatch] = []
+    matches: list[DuplicateMatch] = []
     for ride in rides.list(sought, limit=PAGE).items:
         duration_s = ride.summary.duration_s if ride.summary else 0.0
         over = ride.started_us + duration_s * 1e6 < start_us
         own = upload_id is not None and ride.upload_id == upload_id
-        if ride.state != "done" or over or own or told_by_clock(ride, imported):
+        if ride.state != "done" or over or own or separated_by_clock(ride, imported):
             continue
         if theirs is None:
             values = imported_values(imported, names)
@@ -105,10 +105,10 @@ def find_duplicate(
         reader = rides.reader(ride.id)
         times_us = reader.times_us(0, reader.row_count)
         ours = by_second(ride.started_us, times_us, reader.values(names))
-        if (kind := judged(ride, ours, imported, theirs, whole)) is not None:
-            found.append(DuplicateMatch(kind, ride))
+        if (kind := judged(ride, ours, imported, theirs, is_complete)) is not None:
+            matches.append(DuplicateMatch(kind, ride))
     order = list(Kind)
-    return min(found, key=lambda kin: order.index(kin.kind), default=None)
+    return min(matches, key=lambda kin: order.index(kin.kind), default=None)
 
 
 def imported_values(
@@ -124,18 +124,18 @@ def imported_values(
 
 
 def judged(
-    ride: Ride, ours: BySecond, imported: ImportedRide, theirs: BySecond, whole: bool
+    ride: Ride, ours: BySecond, imported: ImportedRide, theirs: BySecond, is_complete: bool
 ) -> Kind | None:
     """How two rides are to each other; None when they are two."""
-    shared, here, there = np.intersect1d(ours.unix_s, theirs.unix_s, return_indices=True)
+    shared, our_rows, their_rows = np.intersect1d(ours.unix_s, theirs.unix_s, return_indices=True)
     shorter = min(len(ours), len(theirs))
     if not shorter:
         return None  # nothing was measured that could tell
     if len(shared) >= OVERLAP_SHARE * shorter and may_be_one(ride, imported):
-        ours_shared, theirs_shared = taken(ours, here), taken(theirs, there)
+        ours_shared, theirs_shared = taken(ours, our_rows), taken(theirs, their_rows)
         if is_same_recording(ours_shared, theirs_shared):
             within = (len(shared) / len(ours), len(shared) / len(theirs))
-            return of_one_recording(ride, imported, within, whole)
+            return of_one_recording(ride, imported, within, is_complete)
     span = min(ours.unix_s[-1], theirs.unix_s[-1]) - max(ours.unix_s[0], theirs.unix_s[0])
     length = min(np.ptp(ours.unix_s), np.ptp(theirs.unix_s))
     if span < max(1, OVERLAP_SHARE * length):
@@ -143,7 +143,7 @@ def judged(
     return Kind.OTHER_DEVICE if is_same_road(ours, theirs) else None
 
 
-def told_by_clock(ride: Ride, imported: ImportedRide) -> bool:
+def separated_by_clock(ride: Ride, imported: ImportedRide) -> bool:
     """Whether a unit's own clock has told the two apart already (`same_ride`)."""
     return ride.context.boot_id is not None and imported.context.boot_id is not None
 
@@ -155,20 +155,20 @@ def may_be_one(ride: Ride, imported: ImportedRide) -> bool:
 
 
 def of_one_recording(
-    ride: Ride, imported: ImportedRide, within: tuple[float, float], whole: bool
+    ride: Ride, imported: ImportedRide, within: tuple[float, float], is_complete: bool
 ) -> Kind:
     """Which of two of one recording has more. within: share of ours in theirs, theirs in ours."""
     ours = {channel.name for channel in ride.channels} | WORKED_OUT
     offered = {channel.name for channel in ride.offered} | WORKED_OUT
     theirs = {channel.name for channel in imported.rows.channels} | WORKED_OUT
     ours_in_theirs, theirs_in_ours = (share >= WITHIN_SHARE for share in within)
-    mends = ride.completeness is not None and ride.completeness < 1.0 and whole
+    mends = ride.completeness is not None and ride.completeness < 1.0 and is_complete
     more_rows = not theirs_in_ours or mends
     may_replace = ride.origin == "imported" and not ride.filled
     if may_replace and ours_in_theirs and ours <= theirs and (more_rows or not theirs <= offered):
         return Kind.FULLER
     if theirs_in_ours and (theirs <= offered or ride.origin == "recorded"):
-        return Kind.KNOWN
+        return Kind.EXISTING
     return Kind.PARTLY
 
 
@@ -182,16 +182,16 @@ def is_same_recording(ours: BySecond, theirs: BySecond) -> bool:
 
     Positions decide where both have them; else everything that both have must agree.
     """
-    apart = metres_apart(ours, theirs)
-    if apart is not None:
-        return bool(np.mean(apart <= SAME_PLACE_M) >= AGREE_SHARE)
+    distances_m = separation_m(ours, theirs)
+    if distances_m is not None:
+        return bool(np.mean(distances_m <= SAME_PLACE_M) >= AGREE_SHARE)
     shares = []
     for name, tolerance in TOLERANCES.items():
         one, other = ours[name], theirs[name]
-        there = np.isfinite(one) & np.isfinite(other)
-        if there.sum() < OVERLAP_SHARE * len(ours):
+        valid = np.isfinite(one) & np.isfinite(other)
+        if valid.sum() < OVERLAP_SHARE * len(ours):
             continue
-        off = one[there] - other[there]
+        off = one[valid] - other[valid]
         if name == "distance_m":
             # One counts from the ride's start, the other perhaps from the device's.
             off = off - np.median(off)
@@ -205,32 +205,32 @@ def is_same_road(ours: BySecond, theirs: BySecond) -> bool:
     first = max(ours.unix_s[0], theirs.unix_s[0])
     last = min(ours.unix_s[-1], theirs.unix_s[-1])
     seconds = seconds[(seconds >= first) & (seconds <= last)]
-    apart = metres_apart(at(ours, seconds), at(theirs, seconds))
-    if apart is not None:
-        return bool(np.median(apart) <= SAME_ROAD_M)
+    distances_m = separation_m(at(ours, seconds), at(theirs, seconds))
+    if distances_m is not None:
+        return bool(np.median(distances_m) <= SAME_ROAD_M)
     ridden = [distance_m(ride, first, last) for ride in (ours, theirs)]
-    known = [metres for metres in ridden if metres is not None]
-    return len(known) == 2 and abs(known[0] - known[1]) <= 0.05 * max(*known, 1.0)
+    finite = [metres for metres in ridden if metres is not None]
+    return len(finite) == 2 and abs(finite[0] - finite[1]) <= 0.05 * max(*finite, 1.0)
 
 
 def at(ride: BySecond, seconds: Seconds) -> BySecond:
     """A ride's positions at other seconds, on the straight between its own."""
     values = {}
     for name in (LATITUDE, LONGITUDE):
-        there = np.isfinite(ride[name])
-        if there.sum() > 1:
-            values[name] = np.interp(seconds, ride.unix_s[there], ride[name][there])
+        valid = np.isfinite(ride[name])
+        if valid.sum() > 1:
+            values[name] = np.interp(seconds, ride.unix_s[valid], ride[name][valid])
     return BySecond(seconds, values)
 
 
-def metres_apart(ours: BySecond, theirs: BySecond) -> npt.NDArray[np.float64] | None:
+def separation_m(ours: BySecond, theirs: BySecond) -> npt.NDArray[np.float64] | None:
     """How far two rides are apart in each second; None where one has hardly any position."""
     north = ours[LATITUDE] - theirs[LATITUDE]
     east = (ours[LONGITUDE] - theirs[LONGITUDE]) * np.cos(np.radians(ours[LATITUDE]))
-    apart = np.hypot(north, east) * METRES_PER_DEG
-    there = np.isfinite(apart)
-    enough = len(apart) > 0 and there.sum() >= OVERLAP_SHARE * len(apart)
-    return apart[there] if enough else None
+    separation = np.hypot(north, east) * METRES_PER_DEG
+    valid = np.isfinite(separation)
+    enough = len(separation) > 0 and valid.sum() >= OVERLAP_SHARE * len(separation)
+    return separation[valid] if enough else None
 
 
 def distance_m(ride: BySecond, first: int, last: int) -> float | None:
@@ -241,10 +241,10 @@ def distance_m(ride: BySecond, first: int, last: int) -> float | None:
     if len(odometer) > 1:
         return float(odometer[-1] - odometer[0])
     speed = ride["speed_kmh"][inside]
-    there = np.isfinite(speed)
-    if not there.any():
+    valid = np.isfinite(speed)
+    if not valid.any():
         return None
-    return float(np.trapezoid(speed[there] / KMH_PER_MS, ride.unix_s[inside][there]))
+    return float(np.trapezoid(speed[valid] / KMH_PER_MS, ride.unix_s[inside][valid]))
 
 
 # A log and a recording that have so much of the unit's time in common, or half of the log, are of
@@ -267,13 +267,13 @@ def same_rides(rides: RideStore, imported: ImportedRide, upload_id: str | None) 
     start_us = context.unit_t0_us
     stop_us = start_us + int(imported.rows.times_us[-1]) + (imported.period_us or 0)
     enough_us = min(SHARED_US, (stop_us - start_us) / 2)
-    found = [
+    matching = [
         ride
         for ride in rides_of_boot(rides, context.unit_key, context.boot_id)
         if (ride.upload_id is None or ride.upload_id != upload_id)
         and overlap_us((start_us, stop_us), ride_span_us(ride)) >= max(enough_us, 1.0)
     ]
-    return sorted(found, key=ride_span_us)
+    return sorted(matching, key=ride_span_us)
 
 
 def rides_of_boot(rides: RideStore, key: str, boot_id: int) -> Iterator[Ride]:

@@ -43,20 +43,23 @@ class Room:
 
 
 def fill(
-    rides: RideStore, found: Sequence[Ride], imported: ImportedRide, upload_id: str | None = None
+    rides: RideStore,
+    candidates: Sequence[Ride],
+    imported: ImportedRide,
+    upload_id: str | None = None,
 ) -> int:
     """Fill the rides that a log belongs to; how many rows got samples.
 
-    found: those rides, finished, in order of time. upload_id: where the log came from. Raises
+    candidates: those rides, finished, in order of time. upload_id: where the log came from. Raises
     StoreError, Conflict, and then the rides are as they were, or some of them already filled; safe
     to repeat.
     """
     rows = 0
     start_us, stop_us = imported_span_us(imported)
-    for number, ride in enumerate(found):
-        before_us = ride_span_us(found[number - 1])[1] if number else start_us
+    for number, ride in enumerate(candidates):
+        before_us = ride_span_us(candidates[number - 1])[1] if number else start_us
         own = ride_span_us(ride)
-        after_us = stop_us if number == len(found) - 1 else own[1]
+        after_us = stop_us if number == len(candidates) - 1 else own[1]
         filling = plan(ride, imported, Room(max(before_us, start_us), after_us))
         if filling is not None:
             rides.fill(ride, filling, upload_id)
@@ -76,8 +79,8 @@ def plan(ride: Ride, imported: ImportedRide, room: Room) -> Filling | None:
     if period_us is None or t0_us is None or imported.period_us is None:
         return None
     log_t0_us = imported.context.unit_t0_us or 0
-    there = rows_with_samples(ride, imported)
-    unit_us = log_t0_us + imported.rows.times_us[there]
+    has_samples = rows_with_samples(ride, imported)
+    unit_us = log_t0_us + imported.rows.times_us[has_samples]
     at = np.rint((unit_us - t0_us) / period_us).astype(np.int64)
     step = max(1, round(imported.period_us / period_us))
     before, after = growth(ride, at, step, room)
@@ -89,9 +92,9 @@ def plan(ride: Ride, imported: ImportedRide, room: Room) -> Filling | None:
     if not len(places):
         return None
     shift_s = before * period_us / 1e6
-    told_s = (log_t0_us - t0_us) / 1e6 + shift_s
+    shift_of_log_s = (log_t0_us - t0_us) / 1e6 + shift_s
     spans = spans_of(places, empty, step, period_us, imported.period_us)
-    kept = [
+    used = [
         replace(span, from_s=span.from_s + shift_s, to_s=span.to_s + shift_s)
         for span in ride.filled
     ]
@@ -99,20 +102,20 @@ def plan(ride: Ride, imported: ImportedRide, room: Room) -> Filling | None:
         rows_before=before,
         rows_after=after,
         places=places,
-        counts=counts_for(ride, imported, there[fits][first]),
-        filled=tuple(sorted([*kept, *spans], key=lambda span: span.from_s)),
-        events=moved(ride.events, shift_s) + moved(told_of(imported), told_s),
+        counts=counts_for(ride, imported, has_samples[fits][first]),
+        filled=tuple(sorted([*used, *spans], key=lambda span: span.from_s)),
+        events=moved(ride.events, shift_s) + moved(events_without_clock(imported), shift_of_log_s),
     )
 
 
 def rows_with_samples(ride: Ride, imported: ImportedRide) -> Places:
     """Rows of the log that have a sample of a channel the ride has."""
     names = {channel.name for channel in ride.channels}
-    there = np.zeros(len(imported.rows.times_us), dtype=bool)
+    has_samples = np.zeros(len(imported.rows.times_us), dtype=bool)
     for channel in imported.rows.channels:
         if channel.name in names:
-            there |= imported.rows.counts[channel.name] != channel.missing
-    return np.flatnonzero(there)
+            has_samples |= imported.rows.counts[channel.name] != channel.missing
+    return np.flatnonzero(has_samples)
 
 
 def growth(ride: Ride, at: Places, step: int, room: Room) -> tuple[int, int]:
@@ -147,8 +150,8 @@ def spans_of(
     edges = np.flatnonzero(np.diff(np.concatenate(([False], empty, [False])).astype(np.int8)))
     gap_stops = edges[1::2]
     ends = gap_stops[np.searchsorted(gap_stops, places, side="right")]
-    apart = (np.diff(places) > step + 1) | (np.diff(ends) > 0)
-    firsts = np.concatenate(([0], np.flatnonzero(apart) + 1))
+    breaks = (np.diff(places) > step + 1) | (np.diff(ends) > 0)
+    firsts = np.concatenate(([0], np.flatnonzero(breaks) + 1))
     lasts = np.concatenate((firsts[1:] - 1, [len(places) - 1]))
     spans = []
     for first, last in zip(firsts.tolist(), lasts.tolist(), strict=True):
@@ -168,19 +171,21 @@ def spans_of(
 
 def counts_for(ride: Ride, imported: ImportedRide, rows: Places) -> dict[str, Counts]:
     """The log's samples at `rows` in the counts of the ride's channels."""
-    known = {channel.name: channel for channel in imported.rows.channels}
-    found: dict[str, Counts] = {}
+    channels_by_name = {channel.name: channel for channel in imported.rows.channels}
+    counts_by_name: dict[str, Counts] = {}
     for channel in ride.channels:
-        theirs = known.get(channel.name)
+        theirs = channels_by_name.get(channel.name)
         if theirs is None:
             continue
         counts = imported.rows.counts[channel.name][rows]
         same = (theirs.scale, theirs.wide) == (channel.scale, channel.wide)
-        found[channel.name] = counts if same else channel.to_counts(theirs.to_values(counts))
-    return found
+        counts_by_name[channel.name] = (
+            counts if same else channel.to_counts(theirs.to_values(counts))
+        )
+    return counts_by_name
 
 
-def told_of(imported: ImportedRide) -> tuple[RideEvent, ...]:
+def events_without_clock(imported: ImportedRide) -> tuple[RideEvent, ...]:
     """The events of a log but those of its clock: the ride is dated by its own."""
     return tuple(event for event in imported.events if event.kind != CLOCK_SET)
 

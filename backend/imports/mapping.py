@@ -31,51 +31,51 @@ class TableMapping:
         Raises NotFound; Conflict when nothing is asked of it.
         """
         question = self._uploads.question(upload_id)
-        known = self._answers.get(question.header_sha256)
-        answer = answer_to_json(known.answer) if known else None
+        stored = self._answers.get(question.header_sha256)
+        answer = answer_to_json(stored.answer) if stored else None
         return {**asdict(question), "answer": answer}
 
-    def say(self, upload_id: str, said: Mapping[str, Any]) -> Upload:
+    def say(self, upload_id: str, values: Mapping[str, Any]) -> Upload:
         """Keep an answer and read the file by it; what became of it.
 
         All others that wait for the same are read behind it, and each tells for itself what became
-        of it; then the containers they are within are judged anew. said: the members of
+        of it; then the containers they are within are judged anew. values: the members of
         TableAnswer.
         Raises NotFound, Conflict; InvalidRequest for an answer that lacks something.
         """
-        answer = answer_from_json(said) or TableAnswer()
+        answer = answer_from_json(values) or TableAnswer()
         question = self._uploads.question(upload_id)
         if missing := lacking(question, answer):
-            told = f"Not said, or not one of what can be said: {', '.join(missing)}."
-            fields = [FieldError(name, "not_said", told) for name in missing]
-            raise InvalidRequest(told, code="answer_incomplete", fields=fields)
-        self._answers.keep(question, answer)
+            sentence = f"Not said, or not one of what can be said: {', '.join(missing)}."
+            fields = [FieldError(name, "not_said", sentence) for name in missing]
+            raise InvalidRequest(sentence, code="answer_incomplete", fields=fields)
+        self._answers.save(question, answer)
         others = self._store.uploads.asking(NEEDS_MAPPING, question.header_sha256)
-        wholes = {one: self._uploads.get(one).part_of for one in (upload_id, *others)}
-        read = {one: self._uploads.read_anew(one) for one in wholes}
-        own = wholes[upload_id]
-        for one, whole in wholes.items():
-            if whole is not None and whole != own:
-                read[one].add_done_callback(partial(self._judge_behind, whole))
+        containers = {one: self._uploads.get(one).part_of for one in (upload_id, *others)}
+        read = {one: self._uploads.read_anew(one) for one in containers}
+        own = containers[upload_id]
+        for one, container in containers.items():
+            if container is not None and container != own:
+                read[one].add_done_callback(partial(self._judge_behind, container))
         became = read[upload_id].result()
         if own is not None:
-            wait([read[one] for one, whole in wholes.items() if whole == own])
+            wait([read[one] for one, container in containers.items() if container == own])
             self._judge_anew(own)
         return became
 
-    def _judge_behind(self, whole: str, _: Future[Upload]) -> None:
-        self._judge_anew(whole)
+    def _judge_behind(self, container: str, _: Future[Upload]) -> None:
+        self._judge_anew(container)
 
-    def _judge_anew(self, whole: str) -> None:
+    def _judge_anew(self, container: str) -> None:
         """Look at a container again when the last file within is read; new rides get their names.
 
         Not before: it would have a file read once more that is concluded meanwhile.
         """
-        waits = any(part.state == "queued" for part in self._store.uploads.parts(whole))
-        if not waits and self._uploads.get(whole).code == PART_ASKS:
-            self._uploads.read_anew(whole)
+        waits = any(part.state == "queued" for part in self._store.uploads.parts(container))
+        if not waits and self._uploads.get(container).code == PART_ASKS:
+            self._uploads.read_anew(container)
 
-    def known(self) -> dict[str, object]:
+    def answered_tables(self) -> dict[str, object]:
         """What was said of which tables."""
         return {"items": [asdict(table) for table in self._answers.all()]}
 

@@ -12,37 +12,37 @@ from backend.formats import ImportedRide, Outcome
 class ImportResult:
     """The rides of a file, by what became of them.
 
-    fresh: new ones, each with the ride that another device recorded meanwhile. known: those that
-    are here. made_whole: those of which the file had more. rows_filled: by a log.
+    fresh: new ones, each with the ride that another device recorded meanwhile. existing: those that
+    are here. completed: those of which the file had more. rows_filled: by a log.
     """
 
     fresh: list[tuple[ImportedRide, Ride | None]] = field(default_factory=list)
-    known: list[Ride] = field(default_factory=list)
-    made_whole: list[Ride] = field(default_factory=list)
+    existing: list[Ride] = field(default_factory=list)
+    completed: list[Ride] = field(default_factory=list)
     rows_filled: int = 0
 
 
-def describe_result(came: ImportResult, outcome: Outcome) -> tuple[str | None, str | None]:
+def describe_result(result: ImportResult, outcome: Outcome) -> tuple[str | None, str | None]:
     """Code and sentence of an upload; the reader's own where the file is a new ride."""
-    if came.made_whole:
-        return "made_whole", describe_completed(came.made_whole[0])
-    if came.fresh:
-        beside = next((ride for _, ride in came.fresh if ride is not None), None)
-        if beside is None or outcome.code is not None:
+    if result.completed:
+        return "made_whole", describe_completed(result.completed[0])
+    if result.fresh:
+        other = next((ride for _, ride in result.fresh if ride is not None), None)
+        if other is None or outcome.code is not None:
             return outcome.code, outcome.detail
-        return "same_ride", describe_second_recording(beside)
-    if came.known:
-        code = "filled" if came.rows_filled else "duplicate"
-        return code, describe_duplicate(came.known[0], came.rows_filled)
+        return "same_ride", describe_second_recording(other)
+    if result.existing:
+        code = "filled" if result.rows_filled else "duplicate"
+        return code, describe_duplicate(result.existing[0], result.rows_filled)
     return outcome.code, outcome.detail
 
 
 def describe_duplicate(ride: Ride, rows_filled: int) -> str:
     """What became of a file whose ride is here."""
-    found = f"This is ride {ride.id} of {iso_utc(ride.started_us)[:10]}, which is here already"
+    sentence = f"This is ride {ride.id} of {iso_utc(ride.started_us)[:10]}, which is here already"
     if rows_filled:
-        return f"{found}; {rows_filled} rows it lacked were filled from the file, which is kept."
-    return f"{found}; the file is kept beside it and nothing is stored twice."
+        return f"{sentence}; {rows_filled} rows it lacked were filled from the file, which is kept."
+    return f"{sentence}; the file is kept beside it and nothing is stored twice."
 
 
 def describe_completed(ride: Ride) -> str:

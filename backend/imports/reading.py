@@ -51,7 +51,7 @@ class Lanes:
         # What is done for each of them, and in which lane.
         self._tasks: dict[str, tuple[Future[None], str]] = {}
         self._closed = False
-        self._told: set[str] = set()
+        self._logged: set[str] = set()
 
     def begin(self, upload_id: str, prepare: Callable[[str], object]) -> Future[Upload]:
         """Read an upload in its turn; the promise of what becomes of it, which nobody can cancel.
@@ -148,11 +148,11 @@ class Lanes:
 
     def _fail(self, upload_id: str, promise: Future[Upload], error: Exception) -> None:
         """Whoever waits is told; nobody may, so the log is told as well, once of what lasts."""
-        told = f"Upload {upload_id} is not read: {error}"
-        if told not in self._told:
-            self._told.add(told)
+        sentence = f"Upload {upload_id} is not read: {error}"
+        if sentence not in self._logged:
+            self._logged.add(sentence)
             fault = None if isinstance(error, SpindleError) else error
-            LOG.warning("%s", told, exc_info=fault)
+            LOG.warning("%s", sentence, exc_info=fault)
         if self._end(upload_id):
             promise.set_exception(error)
 

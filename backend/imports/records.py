@@ -47,7 +47,7 @@ class TableAnswers:
         columns = tuple(str(name) for name in body.get("columns", ()))
         return KnownTable(header_sha256, str(body.get("kind", "")), columns, answer)
 
-    def keep(self, question: TableQuestion, answer: TableAnswer) -> None:
+    def save(self, question: TableQuestion, answer: TableAnswer) -> None:
         """Keep what was said, in place of what was said before. Raises StoreError."""
         body = {
             "schema_version": 1,
@@ -66,9 +66,9 @@ class TableAnswers:
     def all(self) -> Iterator[KnownTable]:
         """Everything that was said, by header."""
         for key in self._objects.table_keys():
-            found = self.get(key.removeprefix(f"{TABLES}/").removesuffix(".json"))
-            if found is not None:
-                yield found
+            stored = self.get(key.removeprefix(f"{TABLES}/").removesuffix(".json"))
+            if stored is not None:
+                yield stored
 
 
 def key_of(header_sha256: str) -> str:

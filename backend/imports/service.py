@@ -55,7 +55,9 @@ CONCLUDED = (COMPLETE, PARTIAL, REJECTED)
 class Reader(Protocol):
     """Reads a file into an outcome, whatever its bytes."""
 
-    def __call__(self, path: Path, name: str, *, said: TableAnswer | None = None) -> Outcome: ...
+    def __call__(
+        self, path: Path, name: str, *, table_answer: TableAnswer | None = None
+    ) -> Outcome: ...
 
 
 @dataclass(frozen=True)
@@ -106,7 +108,7 @@ class Uploads:
     def create(self, name: str, length: int, sha256: str | None = None) -> Upload:
         """`begin`; a file without bytes has arrived with it and is concluded."""
         upload = self.begin(name, length, sha256)
-        return self._look(upload.id).result() if length == 0 else upload
+        return self._submit(upload.id).result() if length == 0 else upload
 
     def begin(
         self, name: str, length: int, sha256: str | None = None, part_of: str | None = None
@@ -121,8 +123,10 @@ class Uploads:
                 f"The file has {length} bytes; at most {self._settings.length_max} are taken.",
                 code="too_large",
             )
-        told = name.replace("\0", "")[:NAME_LENGTH_MAX] or "upload"
-        return self._store.uploads.create(told, length, sha256, self._settings.expires_s, part_of)
+        file_name = name.replace("\0", "")[:NAME_LENGTH_MAX] or "upload"
+        return self._store.uploads.create(
+            file_name, length, sha256, self._settings.expires_s, part_of
+        )
 
     def append(self, upload_id: str, offset: int, data: bytes) -> int:
         """Add bytes at `offset`; returns the new offset, which is safe on the disk.
@@ -143,7 +147,7 @@ class Uploads:
         """
         upload = self._store.uploads.append(upload_id, offset, data)
         if upload.received == upload.length:
-            return Arrival(upload.received, self._look(upload_id))
+            return Arrival(upload.received, self._submit(upload_id))
         if offset < SNIFFED_BYTES <= upload.received:
             self._refuse_early(upload)
         return Arrival(upload.received, None)
@@ -153,7 +157,7 @@ class Uploads:
         if upload.received < upload.length:
             left = data[upload.received :]
             self._store.uploads.append(upload.id, upload.received, left)
-        return self._look(upload.id)
+        return self._submit(upload.id)
 
     def _refuse_early(self, upload: Upload) -> None:
         head = self._store.uploads.head(upload.id, SNIFFED_BYTES)
@@ -190,9 +194,9 @@ class Uploads:
         part_of: of the files within this upload, else of those that are in none. sha256: of these
         bytes only.
         """
-        found = self._store.uploads.list(limit + 1, before, part_of, sha256)
-        more = len(found) > limit
-        return {"items": found[:limit], "next": found[limit - 1].id if more else None}
+        uploads = self._store.uploads.list(limit + 1, before, part_of, sha256)
+        more = len(uploads) > limit
+        return {"items": uploads[:limit], "next": uploads[limit - 1].id if more else None}
 
     def question(self, upload_id: str) -> TableQuestion:
         """What must be said of an upload's table before it is read.
@@ -209,7 +213,7 @@ class Uploads:
     def read_anew(self, upload_id: str) -> Future[Upload]:
         """Have a file read again that waited for an answer; the promise of what becomes of it."""
         self._store.uploads.wait_again(upload_id)
-        return self._look(upload_id)
+        return self._submit(upload_id)
 
     def remove(self, upload_id: str) -> None:
         """Give an upload up and free its space, whatever became of it but rides.
@@ -221,21 +225,21 @@ class Uploads:
 
     def recover(self) -> Sequence[Upload]:
         """Look at the files a crash or a stop left waiting; what became of those that were read."""
-        promises = [self._look(upload.id) for upload in self._store.uploads.waiting()]
+        promises = [self._submit(upload.id) for upload in self._store.uploads.waiting()]
         return [promise.result() for promise in promises if promise.exception() is None]
 
-    def look_again(self) -> Sequence[Future[Upload]]:
+    def retry_waiting(self) -> Sequence[Future[Upload]]:
         """Have the files looked at that waited for a ride that is over now; does not wait."""
         live = set(self._store.rides.live_ids())
         return [
-            self._look(upload.id)
+            self._submit(upload.id)
             for upload in self._store.uploads.waiting()
             if upload.code == WAITS and upload.duplicate_of not in live
         ]
 
-    def _look(self, upload_id: str) -> Future[Upload]:
+    def _submit(self, upload_id: str) -> Future[Upload]:
         """Keep a whole file, and have it read in its turn."""
-        return self._lanes.begin(upload_id, self._store.uploads.keep_original)
+        return self._lanes.begin(upload_id, self._store.uploads.store_original)
 
     def _process(self, upload_id: str, lane: str) -> Upload:
         upload = self.get(upload_id)
@@ -243,8 +247,8 @@ class Uploads:
 
     def _process_next(self, upload: Upload, lane: str) -> Upload:
         if upload.declared_sha256 and upload.declared_sha256 != upload.sha256:
-            told = f"The bytes that arrived hash to {upload.sha256}, not to what was declared."
-            return self._conclude(upload.id, REJECTED, "hash_mismatch", told, 0.0)
+            sentence = f"The bytes that arrived hash to {upload.sha256}, not to what was declared."
+            return self._conclude(upload.id, REJECTED, "hash_mismatch", sentence, 0.0)
         with self._store.deciding:
             if (twin := self._twin(upload)) is not None:
                 return twin
@@ -259,55 +263,57 @@ class Uploads:
             # The same bytes may have become a ride while these were read.
             if (twin := self._twin(upload)) is not None:
                 return twin
-            return self._keep(self.get(upload.id), outcome)
+            return self._store_rides(self.get(upload.id), outcome)
 
-    def _keep(self, upload: Upload, outcome: Outcome) -> Upload:
+    def _store_rides(self, upload: Upload, outcome: Outcome) -> Upload:
         """Make rides of what was read, or fill, replace or leave those that are here; say so."""
-        came = ImportResult()
+        result = ImportResult()
         for imported in outcome.rides:
             twins = same_rides(self._store.rides, imported, upload.id)
             if live := next((ride for ride in twins if ride.state == "live"), None):
                 return self._wait_for(upload, live)
             if twins:
-                came.rows_filled += fill(self._store.rides, twins, imported, upload.id)
-                came.known += twins
+                result.rows_filled += fill(self._store.rides, twins, imported, upload.id)
+                result.existing += twins
             else:
-                self._settle(upload, imported, outcome, came)
-        for number, (imported, beside) in enumerate(came.fresh):
+                self._settle(upload, imported, outcome, result)
+        for number, (imported, other) in enumerate(result.fresh):
             if number < len(upload.ride_ids):
                 # A crash came between this ride and the conclusion.
                 continue
-            ride = ride_of(upload, imported, number, len(came.fresh), outcome.completeness)
-            same_as = None if beside is None else beside.id
+            ride = ride_of(upload, imported, number, len(result.fresh), outcome.completeness)
+            same_as = None if other is None else other.id
             self._store.rides.add(replace(ride, same_ride_as=same_as), imported.rows, upload.id)
-        code, detail = describe_result(came, outcome)
-        only_known = came.known and not (came.fresh or came.made_whole)
+        code, detail = describe_result(result, outcome)
+        only_existing = result.existing and not (result.fresh or result.completed)
         return self._conclude(
             upload.id,
             outcome.state,
             code,
             detail,
             outcome.completeness,
-            came.known[0].id if only_known else None,
-            [ride.id for ride in came.known],
+            result.existing[0].id if only_existing else None,
+            [ride.id for ride in result.existing],
             outcome.question.header_sha256 if outcome.question else None,
         )
 
     def _settle(
-        self, upload: Upload, imported: ImportedRide, outcome: Outcome, came: ImportResult
+        self, upload: Upload, imported: ImportedRide, outcome: Outcome, result: ImportResult
     ) -> None:
         """A ride that no unit's clock tells from others: whether its recording is here already."""
-        kin = find_duplicate(self._store.rides, imported, outcome.state == COMPLETE, upload.id)
-        if kin is None:
-            came.fresh.append((imported, None))
-        elif kin.kind is Kind.KNOWN:
-            came.known.append(kin.ride)
-        elif kin.kind is Kind.FULLER:
+        duplicate = find_duplicate(
+            self._store.rides, imported, outcome.state == COMPLETE, upload.id
+        )
+        if duplicate is None:
+            result.fresh.append((imported, None))
+        elif duplicate.kind is Kind.EXISTING:
+            result.existing.append(duplicate.ride)
+        elif duplicate.kind is Kind.FULLER:
             fuller = ride_of(upload, imported, 0, 1, outcome.completeness)
-            self._store.rides.replace(kin.ride, fuller, imported.rows, upload.id)
-            came.made_whole.append(kin.ride)
+            self._store.rides.replace(duplicate.ride, fuller, imported.rows, upload.id)
+            result.completed.append(duplicate.ride)
         else:
-            came.fresh.append((imported, kin.ride))
+            result.fresh.append((imported, duplicate.ride))
 
     def _conclude(
         self,
@@ -317,12 +323,12 @@ class Uploads:
         detail: str | None,
         completeness: float | None,
         duplicate_of: int | None = None,
-        beside: Sequence[int] = (),
+        related: Sequence[int] = (),
         asks_sha256: str | None = None,
     ) -> Upload:
         over_us = now_us() + self._settings.expires_s * 1_000_000
         verdict = Verdict(state, code, detail, completeness, duplicate_of, over_us, asks_sha256)
-        return self._store.uploads.conclude(upload_id, verdict, beside)
+        return self._store.uploads.conclude(upload_id, verdict, related)
 
     def _wait_for(self, upload: Upload, live: Ride) -> Upload:
         """Leave a file until the ride it belongs to is over: only then is known what it lacks."""
@@ -339,16 +345,20 @@ class Uploads:
         if upload.object_key is None:
             raise Conflict(f"Upload {upload.id} has not arrived.")
         expected = Expected(upload.object_key, upload.received)
-        if found := self._store.soundness.damage(expected):
-            raise damaged_upload(upload.name, upload.object_key, found)
+        if damage := self._store.soundness.damage(expected):
+            raise damaged_upload(upload.name, upload.object_key, damage)
         return self._store.objects.local_path(upload.object_key)
 
     def _read(self, upload: Upload, path: Path, lane: str) -> Outcome:
         read = self._slow_reader if lane == SLOW else self._reader
         outcome = read(path, upload.name)
         if outcome.question is not None:
-            known = self._answers.get(outcome.question.header_sha256)
-            outcome = read(path, upload.name, said=known.answer) if known else outcome
+            stored_answer = self._answers.get(outcome.question.header_sha256)
+            outcome = (
+                read(path, upload.name, table_answer=stored_answer.answer)
+                if stored_answer
+                else outcome
+            )
         if outcome.code == TOO_SLOW and lane != SLOW:
             raise GoesElsewhere(SLOW)
         return outcome
@@ -359,9 +369,11 @@ class Uploads:
         if first is None or first.id == upload.id:
             return None
         ride = self._store.rides.get(first.ride_ids[0])
-        told = f"The same file is here already: ride {ride.id} of {iso_utc(ride.started_us)[:10]}."
+        sentence = (
+            f"The same file is here already: ride {ride.id} of {iso_utc(ride.started_us)[:10]}."
+        )
         return self._conclude(
-            upload.id, first.state, "duplicate", told, first.completeness, ride.id
+            upload.id, first.state, "duplicate", sentence, first.completeness, ride.id
         )
 
 
@@ -393,5 +405,5 @@ def ride_of(
         events=imported.events,
         sport=imported.sport,
         intake=imported.intake,
-        noted=imported.noted,
+        metadata=imported.metadata,
     )

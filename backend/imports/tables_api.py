@@ -33,7 +33,7 @@ async def put_mapping(upload_id: str, body: SaidOfTable, tables: TheTableMapping
 @router.get("/tables", operation_id="list_tables", response_model=KnownTables)
 def list_tables(tables: TheTableMapping) -> Any:
     """What was said of which tables, by the hash of their header."""
-    return tables.known()
+    return tables.answered_tables()
 
 
 @router.delete("/tables/{header_sha256}", operation_id="forget_table", status_code=204)

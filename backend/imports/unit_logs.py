@@ -28,7 +28,7 @@ from typing import BinaryIO
 from backend.core.described import described
 from backend.core.ride import iso_utc
 from backend.core.unit_key import EBL, serial_of
-from backend.device.ride_logs import LogPieces, RideLog, RideLogs
+from backend.device.ride_logs import LogSegments, RideLog, RideLogs
 from backend.device.unit import Unit
 from backend.errors import (
     Conflict,
@@ -150,12 +150,12 @@ class Collect:
     def logs(self, device_id: str) -> UnitLogs:
         """What a unit has. Raises NotFound, NoAnswer, Conflict for a unit that keeps no logs."""
         source = self._source(device_id)
-        found = source.unit.logs()
+        listed = source.unit.logs()
         now_us = time.time_ns() // 1000
         items = []
-        for log in found.logs:
-            same_boot = log.boot_id == found.boot_id
-            started_us = now_us - (found.now_us - log.t0_us)
+        for log in listed.logs:
+            same_boot = log.boot_id == listed.boot_id
+            started_us = now_us - (listed.now_us - log.t0_us)
             with self._lock:
                 download = self._downloads.get((source.key, log.log_id))
             items.append(
@@ -170,7 +170,7 @@ class Collect:
                     download=download,
                 )
             )
-        return UnitLogs(tuple(items), found.overwritten)
+        return UnitLogs(tuple(items), listed.overwritten)
 
     def start(self, device_id: str, log_id: int) -> Download:
         """Begin to fetch a log, or go on; the same download if one is running.
@@ -183,10 +183,10 @@ class Collect:
             running = self._downloads.get((source.key, log_id))
             if running is not None and running.state in RUNNING:
                 return running
-        found = source.unit.logs()
-        for path in self._orphans(source.key, found):
+        listed = source.unit.logs()
+        for path in self._orphans(source.key, listed):
             self._worker(source.device_id).submit(self._salvage, path)
-        log = _find(found, log_id, source.device_id)
+        log = _find(listed, log_id, source.device_id)
         if log.recording:
             raise Conflict(
                 f"Ride log {log_id} is still being written. It is closed after the bike has stood "
@@ -202,12 +202,12 @@ class Collect:
 
     def get(self, device_id: str, log_id: int) -> Download:
         """How far a download is. Raises NotFound when none was begun."""
-        key = self._devices.known_key(device_id)
+        key = self._devices.last_known_key(device_id)
         with self._lock:
-            found = self._downloads.get((key, log_id))
-        if found is None:
+            download = self._downloads.get((key, log_id))
+        if download is None:
             raise NotFound(f"Nobody has begun to fetch ride log {log_id} of {key}.")
-        return found
+        return download
 
     def erase(self, device_id: str, log_id: int) -> ErasedLog:
         """Have the unit free a log that is safe here. Raises NotFound, Conflict, NoAnswer that says
@@ -256,7 +256,7 @@ class Collect:
     def _run(self, source: _Source, log: RideLog) -> None:
         try:
             path = self._fetch(source, log)
-            self._keep(source, log, path)
+            self._store_log(source, log, path)
         except SpindleError as error:
             self._note(source, log, state="failed", detail=error.message)
         except Exception as error:
@@ -267,7 +267,7 @@ class Collect:
         """The whole log on the disk, checked by the unit."""
         self._folder.mkdir(parents=True, exist_ok=True)
         stem = stem_of(source.key, log)
-        part, whole = self._folder / f"{stem}.part", self._folder / f"{stem}{BLOCKS_SUFFIX}"
+        part, complete = self._folder / f"{stem}.part", self._folder / f"{stem}{BLOCKS_SUFFIX}"
         with storing(part), part.open("a+b") as file:
             fruitless = 0
             while True:
@@ -283,16 +283,16 @@ class Collect:
                     self._wait_connected(source.device_id)
             file.flush()
             os.fsync(file.fileno())
-        part.replace(whole)
-        return whole
+        part.replace(complete)
+        return complete
 
     def _continue(self, source: _Source, log: RideLog, file: BinaryIO) -> None:
         """From what is in the file to the whole log. Raises LinkError where that breaks off."""
         have = self._proven_prefix(source, log, file)
         if have < log.length:
             self._note(source, log, state="fetching", received=have, detail=None)
-            with source.unit.fetch_log(log, have) as pieces:
-                self._take(source, log, pieces, file)
+            with source.unit.fetch_log(log, have) as segments:
+                self._take(source, log, segments, file)
         self._note(source, log, state="checking", received=log.length, bytes_per_s=None)
         if self._proven_prefix(source, log, file) != log.length:
             raise PeerProtocolError(
@@ -312,13 +312,13 @@ class Collect:
         file.truncate(have)
         return have
 
-    def _take(self, source: _Source, log: RideLog, pieces: LogPieces, file: BinaryIO) -> None:
+    def _take(self, source: _Source, log: RideLog, segments: LogSegments, file: BinaryIO) -> None:
         """Write pieces as they come, until the last."""
-        began_s, had = time.monotonic(), pieces.received
+        began_s, had = time.monotonic(), segments.received
         while True:
-            over = pieces.done or pieces.failure is not None
-            file.writelines(pieces.take_pieces())
-            received = pieces.received
+            over = segments.done or segments.failure is not None
+            file.writelines(segments.take_segments())
+            received = segments.received
             taken_s = time.monotonic() - began_s
             rate = (received - had) / taken_s if taken_s > 0 else None
             self._note(source, log, received=received, bytes_per_s=rate)
@@ -326,10 +326,10 @@ class Collect:
                 break
             if self._stopping.wait(TAKE_EVERY_S):
                 raise Stopping("Spindle was closed; fetching goes on at the next try.")
-        if pieces.failure is not None:
-            raise NoAnswer(pieces.failure)
+        if segments.failure is not None:
+            raise NoAnswer(segments.failure)
 
-    def _keep(self, source: _Source, log: RideLog, path: Path) -> None:
+    def _store_log(self, source: _Source, log: RideLog, path: Path) -> None:
         """Into the store, and then the unit may free it."""
         self._note(source, log, state="keeping")
         with storing(path):
@@ -353,29 +353,29 @@ class Collect:
             self._again(source, lambda unit: unit.confirm_log(log, crc32))
             self._note(source, log, state="done", confirmed=True)
         except (LinkError, DeviceRefused, RequestRefused) as error:
-            told = f"The ride is kept; the unit does not know it yet: {error.message}"
-            self._note(source, log, state="done", detail=told)
+            sentence = f"The ride is kept; the unit does not know it yet: {error.message}"
+            self._note(source, log, state="done", detail=sentence)
 
     def _wall_time(self, source: _Source, log: RideLog) -> bytes:
         """When it was ridden, for a file that does not say: known for the unit's present start."""
         try:
-            found = source.unit.logs()
+            listed = source.unit.logs()
         except SpindleError:
             return b""
-        if found.boot_id != log.boot_id:
+        if listed.boot_id != log.boot_id:
             return b""
-        started_us = time.time_ns() // 1000 - (found.now_us - log.t0_us)
+        started_us = time.time_ns() // 1000 - (listed.now_us - log.t0_us)
         return sync_block(log.log_id, log.boot_id, log.t0_us, started_us)
 
     # ------------------------------------------------------------------ what was left behind
 
-    def _orphans(self, key: str, found: RideLogs) -> list[Path]:
+    def _orphans(self, key: str, listed: RideLogs) -> list[Path]:
         """Files of logs that this unit no longer has, or whose end Spindle's own end prevented."""
-        there = {stem_of(key, log) for log in found.logs}
+        stems = {stem_of(key, log) for log in listed.logs}
         return [
             path
             for path in sorted(self._folder.glob(f"{word_of(key)}-*"))
-            if path.suffix in (".part", BLOCKS_SUFFIX) and path.stem not in there
+            if path.suffix in (".part", BLOCKS_SUFFIX) and path.stem not in stems
         ]
 
     def _salvage(self, path: Path) -> None:
@@ -435,9 +435,9 @@ class Collect:
             self._downloads[key] = changed
 
 
-def _find(found: RideLogs, log_id: int, device_id: str) -> RideLog:
+def _find(listed: RideLogs, log_id: int, device_id: str) -> RideLog:
     """The log with this number. Raises NotFound."""
-    for log in found.logs:
+    for log in listed.logs:
         if log.log_id == log_id:
             return log
     raise NotFound(f"{device_id} has no ride log {log_id}; it may have been overwritten.")

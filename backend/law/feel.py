@@ -110,17 +110,17 @@ def fuzzy_mode(values: Mapping[str, Any]) -> int:
 
 def market_for(values: Mapping[str, Any]) -> str:
     """Its own, else the first whose unit takes these values. Raises Conflict where none does."""
-    told = ""
+    note = ""
     settings = without_the_bike(dict(values))
     for market in dict.fromkeys((str(values.get("market", MARKET)), MARKET, *MARKET_OF.values())):
         try:
             unit_with(settings, market, START_SEED, {})
         except ConfigureError as error:
-            told = told or str(error)
+            note = note or str(error)
         else:
             return market
     raise Conflict(
-        f"No simulated unit takes these values, so nothing is measured: {told}", "refused"
+        f"No simulated unit takes these values, so nothing is measured: {note}", "refused"
     )
 
 
@@ -174,11 +174,11 @@ def lag_ms(unit: LockstepUnit) -> float | None:
     before_nm = unit.observe()["motor_torque_nm"]
     unit.rider("constant", LAG_STEP_NM, CADENCE_RPM_UNLIMITED)
     torque_nm = looked_at(unit, LAG_LOOKED_S)["motor_torque_nm"]
-    way_nm = float(np.mean(torque_nm[-round(LAG_FINAL_S / STEP_S) :])) - before_nm
-    if way_nm < LAG_NM_MIN:
+    rise_nm = float(np.mean(torque_nm[-round(LAG_FINAL_S / STEP_S) :])) - before_nm
+    if rise_nm < LAG_NM_MIN:
         return None
-    there = torque_nm >= before_nm + LAG_SHARE * way_nm
-    return round(1000.0 * STEP_S * (int(np.argmax(there)) + 1), 1) if there.any() else None
+    reached = torque_nm >= before_nm + LAG_SHARE * rise_nm
+    return round(1000.0 * STEP_S * (int(np.argmax(reached)) + 1), 1) if reached.any() else None
 
 
 def switched_hz(unit: LockstepUnit) -> float:
@@ -209,13 +209,13 @@ def ripple_pct(ride: Ride) -> float | None:
     angle_deg = np.cumsum(ride["cadence_rpm"] * 6.0 * seconds) + 1e-9 * np.arange(len(t_s))
     from_s = np.interp(angle_deg - HALF_TURN_DEG / 2, angle_deg, t_s)
     to_s = np.interp(angle_deg + HALF_TURN_DEG / 2, angle_deg, t_s)
-    whole = (angle_deg > HALF_TURN_DEG / 2) & (angle_deg < angle_deg[-1] - HALF_TURN_DEG / 2)
+    full_turns = (angle_deg > HALF_TURN_DEG / 2) & (angle_deg < angle_deg[-1] - HALF_TURN_DEG / 2)
 
     def over_half_turn(values: Numbers) -> Numbers:
         total = np.cumsum(values * seconds)
         return np.interp(to_s, t_s, total) - np.interp(from_s, t_s, total)
 
-    helped = whole & assisted(ride) & (over_half_turn((~assisted(ride)).astype(float)) < 1e-9)
+    helped = full_turns & assisted(ride) & (over_half_turn((~assisted(ride)).astype(float)) < 1e-9)
     helped &= (to_s - from_s < HALF_TURN_S_MAX) & (to_s > from_s)
     torque_nm = ride["motor_torque_nm"]
     if not helped.any() or not np.mean(torque_nm[helped]) > 0.0:

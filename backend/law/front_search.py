@@ -69,7 +69,7 @@ def children(random: np.random.Generator, tried: list[Tried], start: Floats) -> 
     if len(tried) < 2:
         return spread_out(random, POPULATION, start.size)
     parents = [tried[at].point for at in best(np.array([one.scores for one in tried]), POPULATION)]
-    found = []
+    offspring = []
     for _ in range(POPULATION):
         # Of two by chance the better one, twice.
         first, second = (parents[min(random.integers(len(parents), size=2))] for _ in range(2))
@@ -78,20 +78,22 @@ def children(random: np.random.Generator, tried: list[Tried], start: Floats) -> 
         child = np.where(blends, first + share * (second - first), first)
         jumps = random.random(start.size) < MUTATED
         child = child + np.where(jumps, random.normal(0.0, SPREAD, start.size), 0.0)
-        found.append(np.clip(child, 0.0, 1.0))
-    return found
+        offspring.append(np.clip(child, 0.0, 1.0))
+    return offspring
 
 
 def best(scores: Floats, count: int) -> list[int]:
     """The first `count` rows of scores (n, 2) by rank, then by how much room is around them."""
     left = np.arange(len(scores))
-    found: list[int] = []
-    while left.size and len(found) < count:
+    selected: list[int] = []
+    while left.size and len(selected) < count:
         inside = unbettered(scores[left])
         front = left[inside]
-        found += [int(at) for at in front[np.argsort(-room_around(scores[front]), kind="stable")]]
+        selected += [
+            int(at) for at in front[np.argsort(-room_around(scores[front]), kind="stable")]
+        ]
         left = left[~inside]
-    return found[:count]
+    return selected[:count]
 
 
 def unbettered(scores: Floats) -> npt.NDArray[np.bool_]:

@@ -30,7 +30,7 @@ AGREED, AGREED_SHARE = 1e-4, 0.005
 ROUNDS_MAX = 100
 BOXES_MAX = 200_000
 """After so many a search ends with the bound it has: half a second of a core."""
-KEPT = 512
+RETAINED = 512
 """Answers: a page asks again for the same table, an undo for the one before."""
 SAME = 1e-6
 """A distance this much too long, as a share, is so by rounding only."""
@@ -55,7 +55,7 @@ class Change:
         return f"{self.speed_kmh:.1f} km/h, torque rate {self.torque_rate:.2f}"
 
 
-@lru_cache(KEPT)
+@lru_cache(RETAINED)
 def largest_rise(
     table: FuzzyTable,
     axis: str,
@@ -73,10 +73,10 @@ def largest_rise(
         return _rise_at_points(table, axis, sign, distance)
     search = _RiseSearch(table, axis, sign, distance)
     at_most = search.run(least)
-    return Change(at_most, search.seen, *search.seen_at)
+    return Change(at_most, search.largest, *search.largest_at)
 
 
-@lru_cache(KEPT)
+@lru_cache(RETAINED)
 def gain_range(table: FuzzyTable, first_rate_only: bool = False) -> tuple[float, float]:
     """The least and the greatest gain over the table, or at its first torque rate.
 
@@ -100,8 +100,8 @@ class _Boxes(NamedTuple):
     low: Floats
     high: Floats
 
-    def only(self, kept: npt.NDArray[np.bool_]) -> _Boxes:
-        return _Boxes(self.which[:, kept], self.low[:, kept], self.high[:, kept])
+    def only(self, chosen: npt.NDArray[np.bool_]) -> _Boxes:
+        return _Boxes(self.which[:, chosen], self.low[:, chosen], self.high[:, chosen])
 
     def halves(self, side: Ints) -> _Boxes:
         """Each cut in two at the middle of a side of its own."""
@@ -144,15 +144,15 @@ class _Search:
         self.sign = sign
         self.pieces = Pieces(table, axis)
         self.agreed_share = AGREED_SHARE
-        self.seen = -math.inf
-        self.seen_at = (table.speed_points_kmh[0], table.torque_rate_points[0])
+        self.largest = -math.inf
+        self.largest_at = (table.speed_points_kmh[0], table.torque_rate_points[0])
 
     def run(self, least: float) -> float:
         """The upper bound of all. Boxes that cannot matter are dropped, the others bisected."""
         boxes, proven, looked_at = self.first(), -math.inf, 0
         for _ in range(ROUNDS_MAX):
             bounded = self.bounded(boxes)
-            enough = max(least - ROUNDING, self.seen + self._agreed())
+            enough = max(least - ROUNDING, self.largest + self._agreed())
             open_ones = bounded.upper > enough
             proven = max(proven, float(bounded.upper[~open_ones].max(initial=-math.inf)))
             still = bounded.upper[open_ones]
@@ -160,10 +160,10 @@ class _Search:
             if not still.size or looked_at + 2 * still.size > BOXES_MAX:
                 break
             boxes = bounded.boxes.only(open_ones).halves(bounded.blur[:, open_ones].argmax(axis=0))
-        return max(self.seen, proven, float(still.max(initial=-math.inf))) + ROUNDING
+        return max(self.largest, proven, float(still.max(initial=-math.inf))) + ROUNDING
 
     def _agreed(self) -> float:
-        share = 0.0 if math.isinf(self.seen) else abs(self.seen) * self.agreed_share
+        share = 0.0 if math.isinf(self.largest) else abs(self.largest) * self.agreed_share
         return max(AGREED, share)
 
     def first(self) -> _Boxes:
@@ -183,10 +183,10 @@ class _Search:
     def note(self, values: Floats, places: Floats, lines: Floats) -> None:
         """Keeps the largest of what the law did."""
         best = int(values.argmax()) if values.size else -1
-        if best >= 0 and values[best] > self.seen:
-            self.seen = float(values[best])
+        if best >= 0 and values[best] > self.largest:
+            self.largest = float(values[best])
             at = float(places[best]), float(lines[best])
-            self.seen_at = at if self.axis == "speed" else at[::-1]
+            self.largest_at = at if self.axis == "speed" else at[::-1]
 
 
 class _RiseSearch(_Search):
@@ -207,29 +207,34 @@ class _RiseSearch(_Search):
         boxes = self._possible(boxes)
         pieces, sign = self.pieces, self.sign
         start, end = _ends(boxes)
-        known, known_end = pieces.enclose(start), pieces.enclose(end)
+        start_enclosure, end_enclosure = pieces.enclose(start), pieces.enclose(end)
         span, span_end = pieces.span(start.quarter), pieces.span(end.quarter)
-        slope, slope_end = known.along.scaled(sign / span), known_end.along.scaled(sign / span_end)
+        slope, slope_end = (
+            start_enclosure.along.scaled(sign / span),
+            end_enclosure.along.scaled(sign / span_end),
+        )
         price = 0.5 * (slope.middle + slope_end.middle)
         if math.isinf(self.distance):
             price = np.minimum(price, 0.0)
         net = slope.shifted(-price).scaled(span)
         net_end = slope_end.shifted(-price).scaled(span_end)
-        by_line = (known_end.across - known.across).scaled(sign)
+        by_line = (end_enclosure.across - start_enclosure.across).scaled(sign)
         sides = (
-            net * known.share_to_along,
-            net_end * known_end.share_to_along,
-            by_line + net_end * known_end.across_to_along - net * known.across_to_along,
+            net * start_enclosure.share_to_along,
+            net_end * end_enclosure.share_to_along,
+            by_line
+            + net_end * end_enclosure.across_to_along
+            - net * start_enclosure.across_to_along,
         )
         half = 0.5 * (boxes.high - boxes.low)
         place, place_end = (pieces.middle(places) for places in (start, end))
-        rise = sign * (known_end.centre - known.centre)
+        rise = sign * (end_enclosure.centre - start_enclosure.centre)
         paid = np.where(price > 0.0, price * min(self.distance, pieces.length), 0.0)
         upper = rise - price * (place_end - place) + paid
         upper += (np.stack([side.size for side in sides]) * half).sum(axis=0)
-        plain = (known_end.gain - known.gain).scaled(sign).high
+        plain = (end_enclosure.gain - start_enclosure.gain).scaled(sign).high
         toward = np.stack((-slope.middle * span, slope_end.middle * span_end, sides[2].middle))
-        self._look(boxes, toward)
+        self._evaluate(boxes, toward)
         return _Bounded(
             boxes, np.minimum(upper, plain), np.stack([side.width for side in sides]) * half
         )
@@ -237,10 +242,10 @@ class _RiseSearch(_Search):
     def _possible(self, boxes: _Boxes) -> _Boxes:
         """Those with a pair in the wanted order, near enough."""
         start, end = (self.pieces.ranges(places) for places in _ends(boxes))
-        apart = end - start
-        return boxes.only((apart.high >= 0.0) & (apart.low <= self.distance))
+        distance = end - start
+        return boxes.only((distance.high >= 0.0) & (distance.low <= self.distance))
 
-    def _look(self, boxes: _Boxes, toward: Floats) -> None:
+    def _evaluate(self, boxes: _Boxes, toward: Floats) -> None:
         """What the law does from the middle of each box to its middle, and at the corner to which
         the slopes lead."""
         corner = np.where(toward > 0.0, boxes.high, boxes.low)
@@ -275,19 +280,19 @@ class _GainSearch(_Search):
     def bounded(self, boxes: _Boxes) -> _Bounded:
         sign = self.sign
         places = boxes.places((0, 1, 2), 0)
-        known = self.pieces.enclose(places)
+        start_enclosure = self.pieces.enclose(places)
         sides = (
-            known.along * known.share_to_along,
-            known.across + known.along * known.across_to_along,
+            start_enclosure.along * start_enclosure.share_to_along,
+            start_enclosure.across + start_enclosure.along * start_enclosure.across_to_along,
         )
         half = 0.5 * (boxes.high - boxes.low)
-        upper = sign * known.centre
+        upper = sign * start_enclosure.centre
         upper += (np.stack([side.size for side in sides]) * half).sum(axis=0)
-        upper = np.minimum(upper, known.gain.scaled(sign).high)
+        upper = np.minimum(upper, start_enclosure.gain.scaled(sign).high)
         toward = np.stack([side.middle for side in sides]) * sign
         for at in (0.5 * (boxes.low + boxes.high), np.where(toward > 0.0, boxes.high, boxes.low)):
-            there = _Boxes(boxes.which, at, at).places((0, 1, 2), 0)
-            speeds, rates = self.pieces.middle(there), self.pieces.line_place(there.line, at[-1])
+            points = _Boxes(boxes.which, at, at).places((0, 1, 2), 0)
+            speeds, rates = self.pieces.middle(points), self.pieces.line_place(points.line, at[-1])
             self.note(sign * self.law(speeds, rates), speeds, rates)
         return _Bounded(boxes, upper, np.stack([side.width for side in sides]) * half)
 
@@ -304,14 +309,14 @@ def _rise_at_points(table: FuzzyTable, axis: str, sign: int, distance: float) ->
         points, lines = lines, points
     places = np.asarray(points, np.float64)
     if math.isfinite(distance):
-        beside = np.concatenate((places - distance, places, places + distance))
-        places = np.unique(np.clip(beside, places[0], places[-1]))
+        neighbours = np.concatenate((places - distance, places, places + distance))
+        places = np.unique(np.clip(neighbours, places[0], places[-1]))
     speeds, rates = (places, lines) if axis == "speed" else (lines, places)
     gains = law.gain_surface(table.to_parameters(), speeds, rates).astype(np.float64)
     gains = gains if axis == "speed" else gains.T
-    apart = places[None, :] - places[:, None]
-    wanted = (apart >= 0.0) & (apart <= distance * (1.0 + SAME))
-    rises = np.where(wanted[..., None], sign * (gains[None] - gains[:, None]), -math.inf)
+    distances = places[None, :] - places[:, None]
+    within = (distances >= 0.0) & (distances <= distance * (1.0 + SAME))
+    rises = np.where(within[..., None], sign * (gains[None] - gains[:, None]), -math.inf)
     _, end, line = np.unravel_index(rises.argmax(), rises.shape)
     at = float(places[end]), float(lines[line])
     speed_kmh, rate = at if axis == "speed" else at[::-1]

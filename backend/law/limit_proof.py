@@ -109,7 +109,7 @@ class LimitProof:
 
     def body(self) -> dict[str, Any]:
         """As plain JSON, without when it was made and for whom it was asked."""
-        told = asdict(self)
+        document = asdict(self)
         for name in ("sha256", "created_us", "unproven"):
-            told.pop(name)
-        return told
+            document.pop(name)
+        return document

@@ -92,10 +92,10 @@ def _limit_errors(limits: Mapping[str, Any]) -> Iterator[Finding]:
 def _monotony_warnings(rise: Change, fall: Change) -> Iterator[Finding]:
     if rise.at_most > RIPPLE_MAX:
         message = f"the gain rises by up to {_up(rise.at_most, 3)} while the bike gets faster"
-        yield Finding("gain_rises_with_speed", message, rise.where, _told(rise))
+        yield Finding("gain_rises_with_speed", message, rise.where, _message_values(rise))
     if fall.at_most > RIPPLE_MAX:
         message = f"the gain falls by up to {_up(fall.at_most, 3)} while the rider pushes harder"
-        yield Finding("gain_falls_with_torque_rate", message, fall.where, _told(fall))
+        yield Finding("gain_falls_with_torque_rate", message, fall.where, _message_values(fall))
 
 
 def _label_warnings(table: FuzzyTable) -> Iterator[Finding]:
@@ -118,7 +118,7 @@ def _jerk_warnings(table: FuzzyTable) -> Iterator[Finding]:
             f"the gain changes by up to {_up(worst.at_most, 3)} within {JERK_DISTANCE_KMH:g} km/h;"
             " the rider feels it as a jerk"
         )
-        yield Finding("steep_gain", message, worst.where, _told(worst))
+        yield Finding("steep_gain", message, worst.where, _message_values(worst))
 
 
 def _steady_warnings(table: FuzzyTable) -> Iterator[Finding]:
@@ -165,7 +165,7 @@ def _ripple_notes(rise: Change, fall: Change) -> Iterator[Finding]:
             f"between the points the surface ripples by up to {_up(worst.at_most, 4)}, as min, max"
             " and centroid do; weighted_average does not"
         )
-        yield Finding("centroid_ripple", message, worst.where, _told(worst))
+        yield Finding("centroid_ripple", message, worst.where, _message_values(worst))
 
 
 def _up(gain: float, digits: int) -> str:
@@ -174,7 +174,7 @@ def _up(gain: float, digits: int) -> str:
     return f"{math.ceil((gain - ROUNDING) * scale) / scale:.{digits}f}"
 
 
-def _told(change: Change) -> dict[str, float | str]:
+def _message_values(change: Change) -> dict[str, float | str]:
     """What a translated message tells of a change."""
     return {"at_most": float(_up(change.at_most, 4))}
 

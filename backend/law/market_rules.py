@@ -35,17 +35,17 @@ def cutoff_warnings(cutoff: Cutoff | None) -> Iterator[Finding]:
     if cutoff is None or cutoff.market is None:
         return
     if cutoff.configured_kmh - cutoff.holds_kmh > SPEED_SHOWN_KMH:
-        asked, where = f"is {cutoff.configured_kmh:g} km/h", "assist_cutoff_kmh"
+        configured, where = f"is {cutoff.configured_kmh:g} km/h", "assist_cutoff_kmh"
     elif cutoff.configured_kmh + cutoff.extra_kmh - cutoff.holds_kmh > SPEED_SHOWN_KMH:
-        asked, where = f"adds {cutoff.extra_kmh:g} km/h", "assist_cutoff_extra_kmh"
+        configured, where = f"adds {cutoff.extra_kmh:g} km/h", "assist_cutoff_extra_kmh"
     else:
         return
     message = (
-        f"{where} {asked}, but assist ends at {cutoff.holds_kmh:.4g} km/h: the market,"
+        f"{where} {configured}, but assist ends at {cutoff.holds_kmh:.4g} km/h: the market,"
         f" {market_words(cutoff.market)}, allows no more"
     )
-    told = _told(cutoff.market, cutoff.holds_kmh)
-    yield Finding("cutoff_above_market", message, where, told)
+    values = _message_values(cutoff.market, cutoff.holds_kmh)
+    yield Finding("cutoff_above_market", message, where, values)
 
 
 def band_warnings(limits: Mapping[str, Any]) -> Iterator[Finding]:
@@ -69,9 +69,9 @@ def reach_notes(table: FuzzyTable, cutoff: Cutoff | None) -> Iterator[Finding]:
         yield from _rows_not_reached(table, cutoff.holds_kmh)
         return
     market, ends = market_words(cutoff.market), f"{cutoff.holds_kmh:.4g} km/h"
-    told = _told(cutoff.market, cutoff.holds_kmh)
+    message_values = _message_values(cutoff.market, cutoff.holds_kmh)
     for row, peak_kmh in enumerate(table.speed_points_kmh):
-        values = {**told, "label": LABELS[row]}
+        values = {**message_values, "label": LABELS[row]}
         if row and table.speed_points_kmh[row - 1] >= cutoff.holds_kmh:
             message = (
                 f"speed row {LABELS[row]} gives assist only above {ends}, where the market,"
@@ -110,29 +110,29 @@ def ratio_warnings(
     gains = surface(table, speeds, rates).max(axis=1).astype(np.float64)
     for slot, mode in enumerate(modes.modes):
         if mode.law == "fuzzy" and mode.table == which:
-            asked: Floats | None = mode.ratio * (1.0 + gains)
+            ratios: Floats | None = mode.ratio * (1.0 + gains)
         else:
-            asked = _fixed_ratios(modes, slot, taper_speeds_kmh, speeds)
-        if asked is None or not (asked - allowed > RATIO_SHOWN).any():
+            ratios = _fixed_ratios(modes, slot, taper_speeds_kmh, speeds)
+        if ratios is None or not (ratios - allowed > RATIO_SHOWN).any():
             continue
-        yield _ratio_finding(mode, slot, cutoff.market, speeds, asked, allowed)
+        yield _ratio_finding(mode, slot, cutoff.market, speeds, ratios, allowed)
 
 
 def _ratio_finding(
-    mode: AssistMode, slot: int, market: str, speeds: Floats, asked: Floats, allowed: Floats
+    mode: AssistMode, slot: int, market: str, speeds: Floats, ratios: Floats, allowed: Floats
 ) -> Finding:
-    first = int(np.argmax(asked - allowed > RATIO_SHOWN))
-    worst = int(np.argmax(asked - allowed))
+    first = int(np.argmax(ratios - allowed > RATIO_SHOWN))
+    worst = int(np.argmax(ratios - allowed))
     message = (
         f"{mode.name}: from {speeds[first]:.1f} km/h on it asks for more than the market,"
-        f" {market_words(market)}, allows, at {speeds[worst]:.1f} km/h {asked[worst]:.2f} times the"
-        f" rider's torque instead of {allowed[worst]:.2f}; the unit gives what is allowed"
+        f" {market_words(market)}, allows, at {speeds[worst]:.1f} km/h {ratios[worst]:.2f} times"
+        f" the rider's torque instead of {allowed[worst]:.2f}; the unit gives what is allowed"
     )
-    told = {**_told(market, float(speeds[first])), "mode": mode.name}
-    return Finding("ratio_above_market", message, f"modes[{slot}].ratio", told)
+    values = {**_message_values(market, float(speeds[first])), "mode": mode.name}
+    return Finding("ratio_above_market", message, f"modes[{slot}].ratio", values)
 
 
-def _told(market: str, speed_kmh: float) -> dict[str, float | str]:
+def _message_values(market: str, speed_kmh: float) -> dict[str, float | str]:
     """What a message tells of a market and a speed."""
     return {"market": market, "speed_kmh": round(speed_kmh, 2)}
 

@@ -49,24 +49,24 @@ def mode_curves(
         raise InvalidRequest(f"give 1 to {SPEEDS_MAX} speeds", "too_many_points")
     curves = []
     for mode in range(MODES):
-        pushed = _held(config, mode, rider_torque_nm, speeds)
-        most = _held(config, mode, HARD_PUSH_NM, speeds)
+        pushed = _steady_torque(config, mode, rider_torque_nm, speeds)
+        most = _steady_torque(config, mode, HARD_PUSH_NM, speeds)
         curves.append(ModeCurve(pushed, float(most.max())))
     return curves
 
 
-def _held(config: Config, mode: int, rider_torque_nm: float, speeds: Floats) -> Floats:
+def _steady_torque(config: Config, mode: int, rider_torque_nm: float, speeds: Floats) -> Floats:
     """Motor torque at the crank at the end of each speed's time, (n,)."""
     steps = np.full(speeds.size, round(NEXT_S / law.STEP_S))
     steps[0] = round(FIRST_S / law.STEP_S)
-    held = np.repeat(speeds, steps)
-    every = np.ones_like(held)
+    repeated = np.repeat(speeds, steps)
+    every = np.ones_like(repeated)
     answer = replay(
         config,
-        speed_kmh=held,
+        speed_kmh=repeated,
         cadence_rpm=every * np.float32(CADENCE_RPM),
         torque_raw_counts=every * raw_counts_of(config, rider_torque_nm),
-        mode=np.full(held.size, mode, np.uint8),
+        mode=np.full(repeated.size, mode, np.uint8),
     )
     at_shaft = answer.motor_torque_nm[np.cumsum(steps) - 1]
     return np.asarray(at_shaft * np.float32(config["gear_ratio"]), np.float32)

@@ -40,7 +40,7 @@ CELL_KNOBS = 9
 START_KMH = 12.0
 LIMIT_KMH = 3.0
 """So far below the cut-off speed a rider feels the limit come and go."""
-FELT_S_MIN = 3.0
+RISE_S_MIN = 3.0
 SAMPLE_STEPS = 5
 SAMPLE_S = SAMPLE_STEPS * STEP_S
 
@@ -108,11 +108,11 @@ class Space:
 
         point: (n,); a knob whose numbers are NaN is not touched.
         """
-        told: dict[str, Any] = {}
+        changed: dict[str, Any] = {}
         for knob, part in zip(self.knobs, self.parts(), strict=True):
             if not np.isnan(point[part]).any():
-                told |= self._turned(knob, point[part])
-        return {name: value for name, value in told.items() if value != self.config[name]}
+                changed |= self._turned(knob, point[part])
+        return {name: value for name, value in changed.items() if value != self.config[name]}
 
     def _start(self, knob: str) -> Floats:
         config = self.config
@@ -202,8 +202,8 @@ class Road:
     @property
     def modes(self) -> list[int]:
         """The slots that were ridden, the one ridden longest first."""
-        seen = np.concatenate([twin.ride.mode for twin in self._twins])
-        slots, counts = np.unique(seen, return_counts=True)
+        recorded_slots = np.concatenate([twin.ride.mode for twin in self._twins])
+        slots, counts = np.unique(recorded_slots, return_counts=True)
         return [int(slot) for slot in slots[np.argsort(-counts)]]
 
     def ridden(self, config: Config) -> Ridden | None:
@@ -212,21 +212,21 @@ class Road:
         rises, totals = [], []
         for twin in self._twins:
             try:
-                told, samples = twin.ridden(config, twin.rider, SAMPLE_STEPS)
+                totals_now, samples = twin.ridden(config, twin.rider, SAMPLE_STEPS)
             except InvalidRequest:
                 return None
-            if told.gave_up:
+            if totals_now.gave_up:
                 return None
-            totals.append(told)
+            totals.append(totals_now)
             rises.append(self._rises(samples))
-        felt = np.concatenate(rises)
+        all_rises = np.concatenate(rises)
         if self._objective == "more_range":
-            battery_j = sum(told.battery_j for told in totals)
+            battery_j = sum(totals_now.battery_j for totals_now in totals)
             aim = battery_j / SECONDS_PER_HOUR / self.distance_km
-        elif felt.size * SAMPLE_S < FELT_S_MIN:
+        elif all_rises.size * SAMPLE_S < RISE_S_MIN:
             return None
         else:
-            aim = float(np.sqrt(np.mean(felt**2)))
+            aim = float(np.sqrt(np.mean(all_rises**2)))
         return Ridden(aim, tuple(totals))
 
     def _rises(self, samples: npt.NDArray[np.void]) -> Floats:
@@ -240,9 +240,9 @@ class Road:
 
 MEASURED = {
     "more_range": "Range needs a motor that helped.",
-    "gentler_start": f"A start needs {FELT_S_MIN:g} s below {START_KMH:g} km/h with the motor.",
+    "gentler_start": f"A start needs {RISE_S_MIN:g} s below {START_KMH:g} km/h with the motor.",
     "flatter_at_the_limit": (
-        f"The limit needs {FELT_S_MIN:g} s within {LIMIT_KMH:g} km/h of the cut-off speed."
+        f"The limit needs {RISE_S_MIN:g} s within {LIMIT_KMH:g} km/h of the cut-off speed."
     ),
 }
 

@@ -54,7 +54,7 @@ PART_SUMMED = 1.0 + 4e-4
 
 
 @dataclass(frozen=True, slots=True)
-class _Known:
+class _Facts:
     """A configuration as the claims need it. crank_nm, gain: the most; helping: the modes that are
     not off."""
 
@@ -80,24 +80,24 @@ def prove_limits(config: Mapping[str, Any], firmware_version: str) -> LimitProof
     config: the unit's parameters by registry name; those that are missing have the law's defaults.
     firmware_version: of the C in this process. Raises InvalidRequest for what the law refuses.
     """
-    known = _known({**law.law_defaults(), **config})
+    facts = _facts_of({**law.law_defaults(), **config})
     body = LimitProof(
         sha256="",
-        config_sha256=hashlib.sha256(law.law_image(known.config)).hexdigest(),
-        table_sha256=hashlib.sha256(law.law_image(known.config, tables_only=True)).hexdigest(),
-        market=known.market,
-        market_sha256=sha256_of(asdict(known.profile)),
+        config_sha256=hashlib.sha256(law.law_image(facts.config)).hexdigest(),
+        table_sha256=hashlib.sha256(law.law_image(facts.config, tables_only=True)).hexdigest(),
+        market=facts.market,
+        market_sha256=sha256_of(asdict(facts.profile)),
         firmware_version=firmware_version,
         method=METHOD,
-        claims=tuple(_claims(known)),
-        cells=known.cells,
+        claims=tuple(_claims(facts)),
+        cells=facts.cells,
     ).body()
     claims = tuple(Claim(**claim) for claim in body["claims"])
     cells = tuple(Cell(**cell) for cell in body["cells"])
     return LimitProof(sha256_of(body), **{**body, "claims": claims, "cells": cells})
 
 
-def _known(config: dict[str, Any]) -> _Known:
+def _facts_of(config: dict[str, Any]) -> _Facts:
     try:
         law.native_config(config)
     except law.LawRefused as refused:
@@ -109,7 +109,7 @@ def _known(config: dict[str, Any]) -> _Known:
     helping = tuple(slot for slot, kind in enumerate(config["mode_laws"]) if kind != "off")
     share = max((config["mode_torque_pct"][slot] for slot in helping), default=0) / 100.0
     gains = {which: gain_most(FuzzyTable.from_parameters(config, which)) for which in _used(config)}
-    return _Known(
+    return _Facts(
         config=config,
         profile=unit.market_profile(market),
         market=market,
@@ -138,41 +138,41 @@ def _cells(
     inner = config["fuzzy_speed_points_kmh"][1:-1]
     edges = [0.0, *(edge for edge in inner if edge < cutoff_kmh), cutoff_kmh]
     allowed = unit.market_ratios(market, edges)
-    asked = np.zeros((len(edges) - 1, 5))
+    demanded = np.zeros((len(edges) - 1, 5))
     for slot in helping:
         if config["mode_laws"][slot] == "fuzzy":
             which = "second" if config["mode_tables"][slot] else "first"
-            rows = np.array(gains[which][: len(asked)])
-            asked[:, slot] = config["mode_ratios"][slot] * (1.0 + rows)
+            rows = np.array(gains[which][: len(demanded)])
+            demanded[:, slot] = config["mode_ratios"][slot] * (1.0 + rows)
         else:
             # It never rises with speed, in float32 neither: its most is where the cell begins.
-            asked[:, slot] = law.steady_ratios(config, slot, edges[:-1])
+            demanded[:, slot] = law.steady_ratios(config, slot, edges[:-1])
     for row, (start, end) in enumerate(pairwise(edges)):
         ratio = None if allowed is None else float(allowed[row + 1])
-        yield Cell(start, end, float(asked[row].max()) * ROUNDED, ratio)
+        yield Cell(start, end, float(demanded[row].max()) * ROUNDED, ratio)
 
 
-def _claims(known: _Known) -> Iterator[Claim]:
-    yield from _speed_claims(known)
-    yield from _ratio_claims(known)
-    yield from _power_claims(known)
-    yield from _ending_claims(known)
-    yield _rise_claim(known)
+def _claims(facts: _Facts) -> Iterator[Claim]:
+    yield from _speed_claims(facts)
+    yield from _ratio_claims(facts)
+    yield from _power_claims(facts)
+    yield from _ending_claims(facts)
+    yield _rise_claim(facts)
 
 
-def _speed_claims(known: _Known) -> Iterator[Claim]:
-    profile, config = known.profile, known.config
-    market = market_words(known.market)
+def _speed_claims(facts: _Facts) -> Iterator[Claim]:
+    profile, config = facts.profile, facts.config
+    market = market_words(facts.market)
     yield Claim(
         "cutoff",
-        f"At {known.cutoff_kmh:.4g} km/h and above, also between the points of a table, the motor"
+        f"At {facts.cutoff_kmh:.4g} km/h and above, also between the points of a table, the motor"
         f" gives nothing; {market} allows assist up to {profile.cutoff_kmh:.4g} km/h.",
         "km/h",
-        known.cutoff_kmh,
+        facts.cutoff_kmh,
         profile.cutoff_kmh,
         False,
         "structure",
-        {"market": known.market},
+        {"market": facts.market},
     )
     band_kmh = max(config["assist_cutoff_band_kmh"], profile.band_kmh or 0.0)
     yield Claim(
@@ -185,7 +185,7 @@ def _speed_claims(known: _Known) -> Iterator[Claim]:
         "structure",
         {},
     )
-    walks = config["walk_speed_kmh"] > 0.0 and profile.walk_kmh > 0.0 and bool(known.helping)
+    walks = config["walk_speed_kmh"] > 0.0 and profile.walk_kmh > 0.0 and bool(facts.helping)
     walk_kmh = profile.walk_kmh if walks else None
     words = f"pushes only below {walk_kmh:.4g} km/h" if walk_kmh else "never pushes"
     yield Claim(
@@ -200,13 +200,13 @@ def _speed_claims(known: _Known) -> Iterator[Claim]:
     )
 
 
-def _ratio_claims(known: _Known) -> Iterator[Claim]:
-    if known.gain is not None:
+def _ratio_claims(facts: _Facts) -> Iterator[Claim]:
+    if facts.gain is not None:
         yield Claim(
             "gain",
-            f"Between the points of the tables the gain is at most {known.gain:.4g}.",
+            f"Between the points of the tables the gain is at most {facts.gain:.4g}.",
             "1",
-            known.gain,
+            facts.gain,
             None,
             False,
             "interval",
@@ -214,19 +214,19 @@ def _ratio_claims(known: _Known) -> Iterator[Claim]:
         )
     yield Claim(
         "ratio",
-        f"The motor's torque at the crank is at most {known.ratio:.4g} times the hardest push since"
+        f"The motor's torque at the crank is at most {facts.ratio:.4g} times the hardest push since"
         " the unit was switched on, walk assist apart.",
         "1",
-        known.ratio,
+        facts.ratio,
         None,
         False,
         "interval",
         {},
     )
-    if not known.profile.ratio_falls:
+    if not facts.profile.ratio_falls:
         return
-    over = [cell for cell in known.cells if cell.ratio_most > (cell.allowed_ratio or 0.0)]
-    from_kmh = over[0].from_kmh if over else known.cutoff_kmh
+    over = [cell for cell in facts.cells if cell.ratio_most > (cell.allowed_ratio or 0.0)]
+    from_kmh = over[0].from_kmh if over else facts.cutoff_kmh
     words = (
         f"; from {from_kmh:.4g} km/h on the modes may ask for more, and the last step cuts it"
         if over
@@ -235,24 +235,24 @@ def _ratio_claims(known: _Known) -> Iterator[Claim]:
     yield Claim(
         "market_ratio",
         "In every control step the torque at the crank is at most what"
-        f" {market_words(known.market)} allows for the push of that moment, twice and falling with"
+        f" {market_words(facts.market)} allows for the push of that moment, twice and falling with"
         f" the speed{words}.",
         "1",
         2.0,
         2.0,
         False,
         "structure",
-        {"market": known.market, "from_kmh": from_kmh},
+        {"market": facts.market, "from_kmh": from_kmh},
     )
 
 
-def _power_claims(known: _Known) -> Iterator[Claim]:
-    config, profile = known.config, known.profile
+def _power_claims(facts: _Facts) -> Iterator[Claim]:
+    config, profile = facts.config, facts.profile
     yield Claim(
         "torque",
-        f"The motor's torque at the crank is at most {known.crank_nm:.4g} Nm.",
+        f"The motor's torque at the crank is at most {facts.crank_nm:.4g} Nm.",
         "Nm",
-        known.crank_nm,
+        facts.crank_nm,
         None,
         False,
         "structure",
@@ -261,7 +261,7 @@ def _power_claims(known: _Known) -> Iterator[Claim]:
     fastest_rad_s = config["motor_speed_rpm_max"] * math.pi / 30.0
     peak_w = min(
         BATTERY_V * config["battery_current_a_max"],
-        known.crank_nm / config["gear_ratio"] * fastest_rad_s,
+        facts.crank_nm / config["gear_ratio"] * fastest_rad_s,
         profile.peak_w or math.inf,
         (1.0 + HEADROOM) * (profile.continuous_w or math.inf),
     )
@@ -292,23 +292,23 @@ def _power_claims(known: _Known) -> Iterator[Claim]:
     )
 
 
-def _ending_claims(known: _Known) -> Iterator[Claim]:
+def _ending_claims(facts: _Facts) -> Iterator[Claim]:
     """How long assist lasts after what should end it, from the control step that reads it."""
-    config, profile = known.config, known.profile
+    config, profile = facts.config, facts.profile
     stop_s = min(float(np.float32(config["pedal_stop_ms"] / 1000.0)), profile.pedal_stop_s)
     steps = int(np.float32(stop_s) / np.float32(STEP_S) + np.float32(0.5))
     outlives_s = max(steps - 1, 0) * STEP_S
-    way_m = outlives_s * known.cutoff_kmh / KMH_PER_MS
+    distance_m = outlives_s * facts.cutoff_kmh / KMH_PER_MS
     yield Claim(
         "pedal_stop",
         f"Assist outlives the first reading without forward pedalling by {outlives_s:.3g} s at"
-        f" most: {way_m:.3g} m at the cut-off speed.",
+        f" most: {distance_m:.3g} m at the cut-off speed.",
         "s",
         outlives_s,
         profile.pedal_stop_s,
         False,
         "recursion",
-        {"way_m": way_m},
+        {"way_m": distance_m},
     )
     push_nm = max(config["pedal_torque_nm_min"], PUSH_NM)
     push_s = (HALF_SECONDS * _steps_within(HALF_SECOND_S) - 1) * STEP_S
@@ -336,10 +336,10 @@ def _ending_claims(known: _Known) -> Iterator[Claim]:
     )
     falls = [
         min(config["assist_ramp_down_nm_per_s"], config["mode_ramp_down_nm_per_s"][slot])
-        for slot in known.helping
+        for slot in facts.helping
     ]
     slowest = max(min(falls, default=LOST_NM_PER_S), LOST_NM_PER_S)
-    lost_s = HOLD_S + (math.ceil(known.crank_nm / (slowest * STEP_S)) + 1) * STEP_S
+    lost_s = HOLD_S + (math.ceil(facts.crank_nm / (slowest * STEP_S)) + 1) * STEP_S
     yield Claim(
         "lost_reading",
         f"Without a new torque reading the torque is zero after {lost_s:.3g} s at most.",
@@ -359,14 +359,14 @@ def _steps_within(duration_s: float) -> int:
     return steps - 1 if longer else steps
 
 
-def _rise_claim(known: _Known) -> Claim:
-    config = known.config
+def _rise_claim(facts: _Facts) -> Claim:
+    config = facts.config
     rises = [
         min(config["assist_ramp_up_nm_per_s"], config["mode_ramp_up_nm_per_s"][slot])
-        for slot in known.helping
+        for slot in facts.helping
     ]
     # The torque before is rounded three times on its way through the gears.
-    rise = max(rises, default=0.0) * ROUNDED + known.crank_nm * 4e-7 / STEP_S
+    rise = max(rises, default=0.0) * ROUNDED + facts.crank_nm * 4e-7 / STEP_S
     return Claim(
         "rise",
         f"The torque at the crank rises by at most {rise:.4g} Nm a second.",

@@ -105,12 +105,12 @@ def reach_of(ride: Recorded) -> Floats:
     pushed &= ride.speed_ms > 1.0
     if not pushed.any():
         raise InvalidRequest("This ride cannot be ridden again: nobody pedals.", "no_pedalling")
-    seen = ride.speed_ms[pushed] / ride.crank_rad_s[pushed]
-    middle = float(np.median(seen))
-    if np.mean(np.abs(seen / middle - 1.0) < ONE_GEAR_SHARE) > 0.9:
+    reach = ride.speed_ms[pushed] / ride.crank_rad_s[pushed]
+    middle = float(np.median(reach))
+    if np.mean(np.abs(reach / middle - 1.0) < ONE_GEAR_SHARE) > 0.9:
         return np.full(ride.speed_ms.size, middle)
     at = np.flatnonzero(pushed)
-    return np.asarray(np.interp(np.arange(ride.speed_ms.size), at, smoothed(seen, GEAR_SAMPLES)))
+    return np.asarray(np.interp(np.arange(ride.speed_ms.size), at, smoothed(reach, GEAR_SAMPLES)))
 
 
 def smoothed(values: Floats, width: int) -> Floats:

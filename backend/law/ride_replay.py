@@ -89,7 +89,7 @@ def replay(
     if np.size(speed_kmh) > STEPS_MAX:
         raise InvalidRequest(f"a replay takes at most {STEPS_MAX} samples", "too_many_samples")
     try:
-        given: dict[str, npt.ArrayLike] = {
+        columns: dict[str, npt.ArrayLike] = {
             "torque_raw_counts": torque_raw_counts,
             "speed_kmh": speed_kmh,
             "cadence_rpm": cadence_rpm,
@@ -105,8 +105,8 @@ def replay(
             "inhibit": inhibit,
         }
         if motor_speed_rpm is not None:
-            given["motor_speed_rpm"] = motor_speed_rpm
-        inputs = law_readings(config, given)
+            columns["motor_speed_rpm"] = motor_speed_rpm
+        inputs = law_readings(config, columns)
         motor_speed = np.asarray(inputs["motor_speed_rpm"], np.float32)
         outputs = law.assist_run(config, inputs, step_s)
         outputs = {name: values[first:] for name, values in outputs.items()}
@@ -119,14 +119,14 @@ def joined(parts: Sequence[Replay]) -> Replay:
     """Replays one after the other as one."""
     if len(parts) == 1:
         return parts[0]
-    whole: dict[str, Any] = {
+    columns: dict[str, Any] = {
         name: np.concatenate([getattr(part, name) for part in parts]) for name in SAMPLES
     }
     return Replay(
-        **whole,
+        **columns,
         motor_torque_nm_max=max(part.motor_torque_nm_max for part in parts),
         motor_work_wh=sum(part.motor_work_wh for part in parts),
-        limit_shares=limit_shares(whole["limit_flags"]),
+        limit_shares=limit_shares(columns["limit_flags"]),
     )
 
 
@@ -138,13 +138,13 @@ def law_readings(
     readings: speed_kmh, cadence_rpm, mode, and torque_raw_counts or rider_torque_nm; what else is
     known by the names of `replay`, whose defaults stand for what is not.
     """
-    whole = {"battery_voltage_v": BATTERY_VOLTAGE_V, "brake": 0, **readings}
-    torque_nm = whole.pop("rider_torque_nm", None)
+    complete = {"battery_voltage_v": BATTERY_VOLTAGE_V, "brake": 0, **readings}
+    torque_nm = complete.pop("rider_torque_nm", None)
     if torque_nm is not None:
-        whole.setdefault("torque_raw_counts", raw_counts_of(config, torque_nm))
-    cadence = np.asarray(whole["cadence_rpm"], np.float32)
+        complete.setdefault("torque_raw_counts", raw_counts_of(config, torque_nm))
+    cadence = np.asarray(complete["cadence_rpm"], np.float32)
     follows = np.maximum(cadence, 0.0) * np.float32(config["gear_ratio"])
-    return {**whole, "motor_speed_rpm": whole.get("motor_speed_rpm", follows)}
+    return {**complete, "motor_speed_rpm": complete.get("motor_speed_rpm", follows)}
 
 
 def raw_counts_of(config: Mapping[str, Any], torque_nm: npt.ArrayLike) -> Floats:

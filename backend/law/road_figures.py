@@ -19,7 +19,7 @@ BATTERY = "battery_j"
 RIPPLE = "ripple_nm_per_s"
 BINS_MAX = 400
 SHORTEST_S = 1e-9
-KNOWN_SHARE = 0.99
+RECORDED_SHARE_MIN = 0.99
 """With less of voltage and current known the battery's energy is not."""
 
 Figures = dict[str, float]
@@ -62,8 +62,8 @@ def ripple_nm_per_s(motor_nm: Floats, moving: Bools, step_s: float) -> float:
     motor_nm: at its shaft, (n,), missing as NaN. moving: (n,).
     """
     rises = np.diff(motor_nm, prepend=motor_nm[:1])[moving] / step_s
-    known = rises[np.isfinite(rises)]
-    return math.sqrt(float(np.mean(known**2))) if known.size else 0.0
+    finite = rises[np.isfinite(rises)]
+    return math.sqrt(float(np.mean(finite**2))) if finite.size else 0.0
 
 
 def battery_j(ride: Recorded) -> float:
@@ -71,7 +71,7 @@ def battery_j(ride: Recorded) -> float:
     if ride.voltage_v is None or ride.current_a is None:
         return math.nan
     power_w = ride.voltage_v * ride.current_a
-    if np.mean(np.isfinite(power_w)) < KNOWN_SHARE:
+    if np.mean(np.isfinite(power_w)) < RECORDED_SHARE_MIN:
         return math.nan
     return float(np.nansum(power_w) * ride.step_s)
 

@@ -86,14 +86,14 @@ def rise(values: Floats, broken: Bools, width: int) -> Floats:
         slope[half:-half] = (values[2 * half :] - values[: -2 * half]) / (2 * half * SPACING_M)
         before = np.concatenate(([0], np.cumsum(broken)))
         slope[half:-half][before[2 * half + 1 :] > before[: -2 * half - 1]] = np.nan
-    known = np.flatnonzero(np.isfinite(slope))
-    if known.size == 0:
+    valid = np.flatnonzero(np.isfinite(slope))
+    if valid.size == 0:
         raise InvalidRequest(
             "This ride cannot be ridden again: it has not one turn of the crank without a brake or"
             " a stop.",
             "too_short",
         )
-    return np.asarray(np.interp(np.arange(slope.size), known, slope[known]))
+    return np.asarray(np.interp(np.arange(slope.size), valid, slope[valid]))
 
 
 def road_of(ride: Recorded, config: Mapping[str, Any]) -> tuple[Road, Forces]:
@@ -104,15 +104,15 @@ def road_of(ride: Recorded, config: Mapping[str, Any]) -> tuple[Road, Forces]:
     latest = np.maximum(np.searchsorted(ride.distance_m, places, side="right") - 1, 0)
     turning = np.clip(ride.crank_rad_s * reach_m / np.maximum(ride.speed_ms, 0.1), 0.0, 1.0)
     braking = braking_at(ride)[latest]
-    stand_s = stands(ride, places)
-    forces = forces_of(ride, config, reach_m, places, braking | (stand_s > 0.0))
+    standing_s = standing_times(ride, places)
+    forces = forces_of(ride, config, reach_m, places, braking | (standing_s > 0.0))
     road = Road(
         spacing_m=SPACING_M,
         force_n=np.zeros(places.size),
         rider_nm=ride.rider_nm[latest],
         speed_ms=forces.speed_ms,
-        ceiling_ms=ceiling(forces.speed_ms, braking, stand_s),
-        stand_s=stand_s,
+        ceiling_ms=ceiling(forces.speed_ms, braking, standing_s),
+        stand_s=standing_s,
         reach_m=reach_m[latest],
         crank_share=turning[latest],
         motor_degc=ride.motor_degc[latest],
@@ -134,26 +134,26 @@ def by_place(distance_m: Floats, values: Floats, places: Floats) -> Floats:
     return np.asarray(np.interp(places, distance_m[moved], values[moved]))
 
 
-def stands(ride: Recorded, places: Floats) -> Floats:
+def standing_times(ride: Recorded, places: Floats) -> Floats:
     """Seconds the bike stands at each place, (m,)."""
     still = ride.speed_ms < STANDING_MS
-    found = np.zeros(places.size)
+    seconds = np.zeros(places.size)
     edges = np.flatnonzero(np.diff(np.concatenate(([0], still.astype(np.int8), [0]))))
     for start, stop in edges.reshape(-1, 2):
         at = min(int(ride.distance_m[start] / SPACING_M), places.size - 1)
-        found[at if stop < still.size else -1] += (stop - start) * ride.step_s
-    return found
+        seconds[at if stop < still.size else -1] += (stop - start) * ride.step_s
+    return seconds
 
 
-def ceiling(speed_ms: Floats, braking: Bools, stand_s: Floats) -> Floats:
+def ceiling(speed_ms: Floats, braking: Bools, standing_s: Floats) -> Floats:
     """The speed above which the rider brakes, m/s (m,): as recorded where he did, 0 where he
     stopped, and before it what a brake takes away on the way there."""
     limit = np.where(braking, speed_ms, np.inf)
-    limit[stand_s > 0.0] = 0.0
+    limit[standing_s > 0.0] = 0.0
     squared = limit**2
     room = 2.0 * BRAKE_MS2 * SPACING_M
     steps = np.arange(squared.size) * room
     # Backwards: at most what the brake leaves of every later limit. Who braked harder may again.
     swept = np.minimum.accumulate((squared + steps)[::-1])[::-1] - steps
-    as_before = np.where(braking | (stand_s > 0.0), 0.0, speed_ms + UNBRAKED_MS)
+    as_before = np.where(braking | (standing_s > 0.0), 0.0, speed_ms + UNBRAKED_MS)
     return np.asarray(np.maximum(np.sqrt(np.maximum(swept, 0.0)), as_before))

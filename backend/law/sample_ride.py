@@ -6,7 +6,7 @@ from sim_device.lockstep import LockstepUnit
 
 SCENARIO = "commute"
 SEED = 7
-LOOK_S = 1.0
+SAMPLE_S = 1.0
 # The modes of the factory that give more and more, then the fuzzy one.
 MODES = ((0, 1), (60, 2), (110, 3))
 """Seconds after the start, and the slot chosen then."""
@@ -20,8 +20,8 @@ def sample_log() -> bytes:
     """
     unit = LockstepUnit(SEED, name="sample", scenario=SCENARIO)
     chosen = 0
-    for seen in unit.ride_once(LOOK_S):
-        while chosen < len(MODES) and seen["t_s"] >= MODES[chosen][0]:
+    for state in unit.ride_once(SAMPLE_S):
+        while chosen < len(MODES) and state["t_s"] >= MODES[chosen][0]:
             unit.select_mode(MODES[chosen][1])
             chosen += 1
     log = unit.unit.log()

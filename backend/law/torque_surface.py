@@ -81,9 +81,9 @@ def torque_surface(
         raise InvalidRequest(f"surface: {refused}", "surface_refused") from refused
     shaped = np.empty((speeds.size, rates.size), law.OUTPUT_DTYPE)
     shaped.ravel()[path] = outputs
-    asked = shaped["assist_ratio"] * shaped["rider_torque_filtered_nm"]
+    demanded = shaped["assist_ratio"] * shaped["rider_torque_filtered_nm"]
     return TorqueSurface(
-        asked_nm=np.asarray(asked, np.float32),
+        asked_nm=np.asarray(demanded, np.float32),
         given_nm=np.asarray(shaped["motor_torque_nm"] * config["gear_ratio"], np.float32),
         limit_flags=shaped["limit_flags"],
     )

@@ -45,7 +45,7 @@ CADENCE_SHARES = (0.5, 1.2)
 """Of who shifts: some of what keeps his cadence, or more, as cogs are steps."""
 HOLDS_POWER = Rider(power_share=1.0, hold_share=0.0)
 HOLDS_POWER_AND_CADENCE = Rider(power_share=1.0, hold_share=0.0, cadence_share=1.0)
-TOLD_WITHIN = 0.03
+GIVEN_WITHIN = 0.03
 BAND_PCT = (5.0, 95.0)
 FLOORS = {DURATION: 0.0017, MOTOR_WORK: 0.018, BATTERY: 0.02, RIPPLE: 0.08}
 FLOOR = 0.018
@@ -57,24 +57,24 @@ SAMPLES_MIN = 100
 """With fewer a fit is a guess."""
 
 
-NOTHING_TOLD = RiderAndBike()
+UNSPECIFIED = RiderAndBike()
 
 
-def assumed_of(told: RiderAndBike) -> Assumed:
+def assumed_of(rider_and_bike: RiderAndBike) -> Assumed:
     """With usual values for what nobody told."""
     usual = Assumed()
     return replace(
         usual,
-        mass_kg=told.mass_kg or usual.mass_kg,
-        drag_area_m2=told.drag_area_m2 or usual.drag_area_m2,
+        mass_kg=rider_and_bike.mass_kg or usual.mass_kg,
+        drag_area_m2=rider_and_bike.drag_area_m2 or usual.drag_area_m2,
     )
 
 
-def around(told: float | None, likely: tuple[float, float]) -> tuple[float, float]:
+def around(given: float | None, likely: tuple[float, float]) -> tuple[float, float]:
     """Where a value lies: near what was told, else anywhere likely."""
-    if told is None:
+    if given is None:
         return likely
-    return told * (1.0 - TOLD_WITHIN), told * (1.0 + TOLD_WITHIN)
+    return given * (1.0 - GIVEN_WITHIN), given * (1.0 + GIVEN_WITHIN)
 
 
 Band = dict[str, tuple[float, float]]
@@ -91,9 +91,9 @@ class RoadTwin:
     """
 
     def __init__(
-        self, ride: Recorded, config: Mapping[str, Any], told: RiderAndBike = NOTHING_TOLD
+        self, ride: Recorded, config: Mapping[str, Any], rider_and_bike: RiderAndBike = UNSPECIFIED
     ) -> None:
-        """config: the unit's on that ride. told: of rider and bike. Raises
+        """config: the unit's on that ride. rider_and_bike: of rider and bike. Raises
         InvalidRequest if the ride cannot be laid over its distance."""
         self.ride = ride
         self._road, self._forces = road_of(ride, config)
@@ -101,8 +101,8 @@ class RoadTwin:
         self.one_gear = bool(np.ptp(self._road.reach_m) == 0.0)
         self._longest_s = LONGEST_SHARE * ride.duration_s + 60.0
         self._bike = bike_of(ride)
-        self._told = told
-        self.assumed = assumed_of(told)
+        self._rider_and_bike = rider_and_bike
+        self.assumed = assumed_of(rider_and_bike)
         self._twin = self._made(self.assumed)
         self.rider = HOLDS_POWER if self.one_gear else HOLDS_POWER_AND_CADENCE
         self.self_replay, _ = self._twin.ride(config, self.rider)
@@ -123,8 +123,8 @@ class RoadTwin:
     def corrected(self, totals: Totals) -> Figures:
         """What a ride came to, less what the twin errs by without any change; a figure that was not
         recorded is NaN."""
-        told = figures_of(totals)
-        return {name: told[name] * self._record_over_twin[name] for name in told}
+        figures = figures_of(totals)
+        return {name: figures[name] * self._record_over_twin[name] for name in figures}
 
     def band(
         self,
@@ -138,12 +138,14 @@ class RoadTwin:
 
         before_each: called before each of `count` rides; what it raises ends them."""
         random = np.random.default_rng(seed)
-        found = []
+        results = []
         for number in range(count):
             before_each()
             assumed = Assumed(
-                mass_kg=random.uniform(*around(self._told.mass_kg, MASSES_KG)),
-                drag_area_m2=random.uniform(*around(self._told.drag_area_m2, DRAG_AREAS_M2)),
+                mass_kg=random.uniform(*around(self._rider_and_bike.mass_kg, MASSES_KG)),
+                drag_area_m2=random.uniform(
+                    *around(self._rider_and_bike.drag_area_m2, DRAG_AREAS_M2)
+                ),
                 gear_efficiency=random.uniform(*GEAR_EFFICIENCIES),
             )
             share = random.uniform(*POWER_SHARES), 0.0
@@ -151,13 +153,13 @@ class RoadTwin:
             shifts = 0.0 if self.one_gear else random.uniform(*CADENCE_SHARES)
             rider = Rider(*(share if number % 2 == 0 else hold), shifts)
             totals, _ = self._made(assumed).ride(config, rider)
-            found.append(self.corrected(totals))
-        held = {}
-        for name in found[0]:
-            low, high = np.percentile([figures[name] for figures in found], BAND_PCT)
+            results.append(self.corrected(totals))
+        limits = {}
+        for name in results[0]:
+            low, high = np.percentile([figures[name] for figures in results], BAND_PCT)
             floor = FLOORS.get(name, FLOOR)
-            held[name] = float(low * (1.0 - floor)), float(high * (1.0 + floor))
-        return held
+            limits[name] = float(low * (1.0 - floor)), float(high * (1.0 + floor))
+        return limits
 
     def _ratio(self, name: str, unchanged: float) -> float:
         """Record over twin; 1 where there is too little help to tell, NaN without a record."""
@@ -179,7 +181,7 @@ class RoadTwin:
 def bike_of(ride: Recorded) -> Bike:
     """What moves the bike, and the battery as its voltage and current tell; 36 V without them."""
     assumed = Assumed()
-    kept = Bike(
+    recorded = Bike(
         mass_kg=assumed.mass_kg,
         air_n_s2_per_m2=air(assumed),
         chain_efficiency=CHAIN_EFFICIENCY,
@@ -193,30 +195,30 @@ def bike_of(ride: Recorded) -> Bike:
         idle_w=0.0,
     )
     if ride.voltage_v is None or ride.current_a is None:
-        return kept
-    there = np.isfinite(ride.voltage_v) & np.isfinite(ride.current_a)
-    if np.count_nonzero(there) < SAMPLES_MIN:
-        return kept
-    volts, amps = ride.voltage_v[there], ride.current_a[there]
+        return recorded
+    valid = np.isfinite(ride.voltage_v) & np.isfinite(ride.current_a)
+    if np.count_nonzero(valid) < SAMPLES_MIN:
+        return recorded
+    volts, amps = ride.voltage_v[valid], ride.current_a[valid]
     power_w = volts * amps
     taken_j = np.cumsum(power_w) * ride.step_s
     open_v, sag, resistance = fitted(np.column_stack((np.ones(volts.size), -taken_j, -amps)), volts)
-    motor_nm, motor_rad_s = ride.motor_nm[there], ride.motor_rad_s[there]
+    motor_nm, motor_rad_s = ride.motor_nm[valid], ride.motor_rad_s[valid]
     pushing = motor_nm > FREE_MOTOR_NM
     idle_w = float(np.median(power_w[~pushing])) if (~pushing).any() else 0.0
-    found = replace(
-        kept,
+    bike = replace(
+        recorded,
         open_v=open_v,
         sag_v_per_j=max(sag, 0.0),
         resistance_ohm=max(resistance, 0.0),
         idle_w=max(idle_w, 0.0),
     )
     if np.count_nonzero(pushing) < SAMPLES_MIN:
-        return found
+        return bike
     torque, speed = motor_nm[pushing], motor_rad_s[pushing]
     terms = np.column_stack((speed**2, torque * speed, torque**2))
-    loss, share, copper = fitted(terms, power_w[pushing] - found.idle_w)
-    return replace(found, loss_w_per_rad2=loss, power_share=share, loss_w_per_nm2=copper)
+    loss, share, copper = fitted(terms, power_w[pushing] - bike.idle_w)
+    return replace(bike, loss_w_per_rad2=loss, power_share=share, loss_w_per_nm2=copper)
 
 
 def fitted(terms: Floats, values: Floats) -> tuple[float, ...]:

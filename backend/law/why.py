@@ -109,7 +109,7 @@ def why(
     try:
         one, rows = _prepared(config, readings, step_s)
         one.run(rows[:-1])
-        return _told(config, one.trace(rows[-1:]), rows[-1], delivered_nm)
+        return _why_of(config, one.trace(rows[-1:]), rows[-1], delivered_nm)
     except (law.LawRefused, KeyError, TypeError, ValueError) as refused:
         raise InvalidRequest(f"why: {refused}", "why_refused") from refused
 
@@ -133,7 +133,7 @@ def why_steady(
         released["walk_button"] = 0
         one.run(released)
         one.hold(rows[-1:], torque_rate, round(held_s / step_s))
-        return _told(config, one.trace(rows[-1:]), rows[-1], None)
+        return _why_of(config, one.trace(rows[-1:]), rows[-1], None)
     except (law.LawRefused, KeyError, TypeError, ValueError) as refused:
         raise InvalidRequest(f"why: {refused}", "why_refused") from refused
 
@@ -145,13 +145,13 @@ def _prepared(
     return law.AssistLaw(config, step_s), np.ascontiguousarray(rows)
 
 
-def _told(
+def _why_of(
     config: Mapping[str, Any], traced: law.Traced, row: np.void, delivered_nm: float | None
 ) -> Why:
     output = traced.output
     gear = float(config["gear_ratio"])
     crank_rpm = float(row["motor_speed_rpm"]) / gear if traced.walk else float(row["cadence_rpm"])
-    rad_per_s = _known(max(crank_rpm, 0.0) * RADIANS_PER_S_PER_RPM)
+    rad_per_s = _finite_or_none(max(crank_rpm, 0.0) * RADIANS_PER_S_PER_RPM)
     law_name = "walk" if traced.walk else _mode_law(config, int(row["mode"]))
     flags = tuple(name for name, bit in law.LIMITS.items() if int(output["limit_flags"]) & bit)
     changes = _changes(traced, law_name, flags)
@@ -167,7 +167,7 @@ def _told(
             FiredRule(rule.row, rule.column, LABELS[rule.label], rule.weight)
             for rule in traced.rules
         ),
-        gain=_known(output["fuzzy_gain"]) if ok else None,
+        gain=_finite_or_none(output["fuzzy_gain"]) if ok else None,
         assist_ratio=output["assist_ratio"] if ok and not traced.walk else None,
         torque_rate=output["torque_rate"] if ok else None,
         rider_torque_nm=output["rider_torque_filtered_nm"] if ok else None,
@@ -177,7 +177,7 @@ def _told(
             for name, change, limit in changes
         ),
         commanded_nm=commanded_nm,
-        available_nm=_known(output["motor_torque_available_nm"] * gear),
+        available_nm=_finite_or_none(output["motor_torque_available_nm"] * gear),
         delivered_nm=delivered_crank_nm,
         limit_flags=flags,
     )
@@ -218,5 +218,5 @@ def _mode_law(config: Mapping[str, Any], mode: int) -> str:
     return str(laws[mode]).lower() if mode < len(laws) else "off"
 
 
-def _known(value: float) -> float | None:
+def _finite_or_none(value: float) -> float | None:
     return float(value) if np.isfinite(value) else None

@@ -25,7 +25,7 @@ class Points:
     up: Sequence[float]
     shape: Shape
     colour: Any
-    beside: float = 0.0
+    offset: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ class Plot(Flowable):  # type: ignore[misc]  # reportlab tells no types
                 self._line(places, one.colour)
             else:
                 for x, y in places:
-                    self._mark(x + one.beside, y, one)
+                    self._mark(x + one.offset, y, one)
 
     def _x(self, value: float) -> float:
         wide = self.width - ROOM["left"] - ROOM["right"] - 8

@@ -139,24 +139,24 @@ class _Numbered(Canvas):  # type: ignore[misc]  # reportlab tells no types
     def __init__(self, cover: Cover, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
         self._cover = cover
-        self._held: list[dict[str, Any]] = []
+        self._pages: list[dict[str, Any]] = []
 
     def showPage(self) -> None:
         """Called by reportlab at the end of each."""
-        self._held.append(dict(self.__dict__))
+        self._pages.append(dict(self.__dict__))
         self._startPage()
 
     def save(self) -> None:
         """Called by reportlab at the end of all."""
-        for number, page in enumerate(self._held, 1):
+        for number, page in enumerate(self._pages, 1):
             self.__dict__.update(page)
-            told = self._cover.pages.format(page=number, pages=len(self._held))
+            footer = self._cover.pages.format(page=number, pages=len(self._pages))
             right = self._pagesize[0] - MARGIN
             self.setStrokeColor(LINE)
             self.line(MARGIN, FOOT - 8, right, FOOT - 8)
             self.setFillColor(QUIET)
             write(self, MARGIN, FOOT - 18, self._cover.foot, SMALL)
-            write(self, right, FOOT - 18, told, SMALL, anchor=1.0)
+            write(self, right, FOOT - 18, footer, SMALL, anchor=1.0)
             super().showPage()
         super().save()
 
@@ -233,7 +233,7 @@ def facts(pairs: Sequence[tuple[str, str]], width: float, columns: int = 2) -> T
     return made
 
 
-def beside(parts: Sequence[Any], width: float) -> Table:
+def side_by_side(parts: Sequence[Any], width: float) -> Table:
     """Parts next to each other, equally wide."""
     made = Table([list(parts)], colWidths=[width / len(parts)] * len(parts), hAlign="LEFT")
     made.setStyle([*_PADDING])

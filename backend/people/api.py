@@ -34,14 +34,14 @@ Id = Annotated[int, Path(ge=1, le=2**31 - 1)]
 
 def people_of(request: Request) -> PeopleService:
     """Raises Conflict `no_accounts` on a server that asks nobody."""
-    people = known_people(request)
+    people = people_or_none(request)
     if people is None:
         message = "This server asks nobody to sign in. SPINDLE_AUTH=required makes it."
         raise Conflict(message, "no_accounts")
     return people
 
 
-def known_people(request: Request) -> PeopleService | None:
+def people_or_none(request: Request) -> PeopleService | None:
     """None on a server that asks nobody."""
     people: PeopleService | None = request.app.state.authenticator
     return people
@@ -55,7 +55,7 @@ def asking(request: Request) -> Caller:
     return caller
 
 
-Asked = Annotated[PeopleService, Depends(people_of)]
+PeopleOf = Annotated[PeopleService, Depends(people_of)]
 Asking = Annotated[Caller, Depends(asking)]
 
 
@@ -76,7 +76,7 @@ InBrowser = Annotated[Caller, Depends(in_browser)]
 def get_session(request: Request) -> Session:
     """Whether people sign in here, and who asks."""
     caller = caller_of(request)
-    people = known_people(request)
+    people = people_or_none(request)
     return Session(
         sign_in=people is not None,
         needs_first=people is not None and not people.accounts.has_admin(),
@@ -89,7 +89,7 @@ def get_session(request: Request) -> Session:
     operation_id="sign_in",
     responses=refusals(401, 409, 429),
 )
-def sign_in(body: SignInRequest, people: Asked, request: Request, response: Response) -> Person:
+def sign_in(body: SignInRequest, people: PeopleOf, request: Request, response: Response) -> Person:
     """Begins a session: its token goes into a cookie that no script reads."""
     password = body.password.get_secret_value()
     return begun(people, body.name, password, request, response)
@@ -102,7 +102,7 @@ def sign_in(body: SignInRequest, people: Asked, request: Request, response: Resp
     responses=refusals(401, 403, 409, 429),
 )
 def make_first_person(
-    body: FirstPerson, people: Asked, request: Request, response: Response
+    body: FirstPerson, people: PeopleOf, request: Request, response: Response
 ) -> Person:
     """The first administrator, by the link that the server printed; signs them in."""
     password = body.password.get_secret_value()
@@ -114,7 +114,7 @@ def make_first_person(
     "/session", operation_id="sign_out", status_code=204, responses=refusals(401, 403, 409)
 )
 def sign_out(
-    people: Asked,
+    people: PeopleOf,
     caller: InBrowser,
     request: Request,
     response: Response,
@@ -132,12 +132,12 @@ def sign_out(
     responses=refusals(401, 403, 409, 429),
 )
 def change_own_password(
-    body: OwnPassword, people: Asked, caller: InBrowser, request: Request, response: Response
+    body: OwnPassword, people: PeopleOf, caller: InBrowser, request: Request, response: Response
 ) -> None:
     """Gives oneself another password; every other browser is signed out."""
     old, new = body.old.get_secret_value(), body.new.get_secret_value()
     token = people.sign_in.change_password(caller, old, new, address_of(request))
-    session_cookie.put(request, response, token)
+    session_cookie.set_cookie(request, response, token)
 
 
 @router.post(
@@ -146,7 +146,7 @@ def change_own_password(
     status_code=201,
     responses=refusals_only(401, 403, 409),
 )
-def give_ticket(people: Asked, caller: Asking) -> Ticket:
+def give_ticket(people: PeopleOf, caller: Asking) -> Ticket:
     """Opens one WebSocket without a header: for programs. A browser's cookie does by itself."""
     return Ticket(people.tickets.give(caller), VALID_S)
 
@@ -156,7 +156,7 @@ def give_ticket(people: Asked, caller: Asking) -> Ticket:
     operation_id="list_people",
     responses=refusals_only(401, 403, 409),
 )
-def list_people(people: Asked) -> People:
+def list_people(people: PeopleOf) -> People:
     """Everybody with an account, by name."""
     return People(people.accounts.list())
 
@@ -167,7 +167,7 @@ def list_people(people: Asked) -> People:
     status_code=201,
     responses=refusals(401, 403, 409, 429),
 )
-def add_person(body: PersonIn, people: Asked) -> Person:
+def add_person(body: PersonIn, people: PeopleOf) -> Person:
     """A new account."""
     password = body.password.get_secret_value()
     return people.accounts.add(body.name, body.role, password)
@@ -178,7 +178,7 @@ def add_person(body: PersonIn, people: Asked) -> Person:
     operation_id="change_person",
     responses=refusals(401, 403, 404, 409, 429),
 )
-def change_person(person_id: Id, body: PersonChange, people: Asked) -> Person:
+def change_person(person_id: Id, body: PersonChange, people: PeopleOf) -> Person:
     """Another role or password, or disabled; with the last two every browser is signed out."""
     return people.accounts.change(person_id, body)
 
@@ -188,7 +188,7 @@ def change_person(person_id: Id, body: PersonChange, people: Asked) -> Person:
     operation_id="list_keys",
     responses=refusals_only(401, 403, 409),
 )
-def list_keys(people: Asked) -> ApiKeys:
+def list_keys(people: PeopleOf) -> ApiKeys:
     """Every key, newest first, revoked ones too."""
     return ApiKeys(people.keys.list())
 
@@ -199,7 +199,7 @@ def list_keys(people: Asked) -> ApiKeys:
     status_code=201,
     responses=refusals(401, 403, 404, 409),
 )
-def add_key(body: ApiKeyIn, people: Asked, caller: Asking) -> NewApiKey:
+def add_key(body: ApiKeyIn, people: PeopleOf, caller: Asking) -> NewApiKey:
     """A new key. It is in this answer and nowhere else: only its hash is kept."""
     whose = caller.person.id if body.person_id is None else body.person_id
     key, secret = people.keys.add(whose, body.name, set(body.scopes), body.expires_at)
@@ -212,7 +212,7 @@ def add_key(body: ApiKeyIn, people: Asked, caller: Asking) -> NewApiKey:
     status_code=204,
     responses=refusals(401, 403, 404, 409),
 )
-def revoke_key(key_id: Id, people: Asked) -> None:
+def revoke_key(key_id: Id, people: PeopleOf) -> None:
     """Ends a key; it stays in the list."""
     people.keys.revoke(key_id)
 
@@ -222,7 +222,7 @@ def begun(
 ) -> Person:
     """A new session, whatever the browser came with."""
     token, person = people.sign_in.sign_in(name, password, address_of(request))
-    session_cookie.put(request, response, token)
+    session_cookie.set_cookie(request, response, token)
     return person
 
 

@@ -93,14 +93,14 @@ class Passwords:
         with self._turn():
             return self._hasher.hash(normal(password))
 
-    def matches(self, kept: str | None, password: str) -> bool:
+    def matches(self, stored: str | None, password: str) -> bool:
         """Whether a password is the kept one. None, of nobody, takes as long and is False."""
         with self._turn():
             try:
-                self._hasher.verify(kept or self._nobodys, normal(password))
+                self._hasher.verify(stored or self._nobodys, normal(password))
             except (VerificationError, InvalidHashError):
                 return False
-        return kept is not None
+        return stored is not None
 
     @contextmanager
     def _turn(self) -> Iterator[None]:

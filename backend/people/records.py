@@ -32,7 +32,7 @@ AGE_MAX_US = 30 * 24 * HOUR_US
 # Of one person: the oldest goes first. Protects the table.
 SESSIONS_MAX = 50
 # A use is noted so seldom that a page that asks twice a second does not keep the disk busy.
-NOTED_EVERY_US = 60_000_000
+USE_NOTED_EVERY_US = 60_000_000
 
 
 class AccountStore:
@@ -94,8 +94,8 @@ class AccountStore:
 
         def work(connection: Connection) -> Person:
             mine = t.account.c.id == person_id
-            found = connection.execute(select(t.account).where(mine)).first()
-            if found is None:
+            existing = connection.execute(select(t.account).where(mine)).first()
+            if existing is None:
                 raise NotFound(f"There is no account {person_id}.")
             had_admin = admins(connection) > 0
             if changes:
@@ -183,10 +183,10 @@ class SessionStore:
         row = self._database.read(lambda connection: connection.execute(query).first())
         if row is None:
             return None
-        if now_us - row.used_us > NOTED_EVERY_US:
-            noted = update(t.session).where(t.session.c.id == row.session_id)
+        if now_us - row.used_us > USE_NOTED_EVERY_US:
+            use = update(t.session).where(t.session.c.id == row.session_id)
             # Nobody waits for it, and a full disk signs nobody out.
-            self._database.submit(lambda c: c.execute(noted.values(used_us=now_us)).rowcount)
+            self._database.submit(lambda c: c.execute(use.values(used_us=now_us)).rowcount)
         return row.session_id, person_of(row)
 
     def close(self, session_id: int) -> None:
@@ -291,9 +291,9 @@ class KeyStore:
 
     def note_use(self, key: ApiKey, now_us: int) -> None:
         """That a key was used; nobody waits for it."""
-        if key.used_at is None or utc(now_us - NOTED_EVERY_US) > key.used_at:
-            noted = update(t.api_key).where(t.api_key.c.id == key.id).values(used_us=now_us)
-            self._database.submit(lambda connection: connection.execute(noted).rowcount)
+        if key.used_at is None or utc(now_us - USE_NOTED_EVERY_US) > key.used_at:
+            use = update(t.api_key).where(t.api_key.c.id == key.id).values(used_us=now_us)
+            self._database.submit(lambda connection: connection.execute(use).rowcount)
 
 
 def keys() -> Select[Any]:
@@ -304,14 +304,14 @@ def keys() -> Select[Any]:
 
 def key_of(row: Row[Any]) -> ApiKey:
     """A row of `keys`. A scope that this version does not know allows nothing."""
-    known = {str(permission) for permission in Permission}
+    permissions = {str(permission) for permission in Permission}
     return ApiKey(
         id=row.id,
         person_id=row.account_id,
         person_name=row.person_name,
         name=row.name,
         prefix=row.prefix,
-        scopes=tuple(sorted(Permission(scope) for scope in row.scopes if scope in known)),
+        scopes=tuple(sorted(Permission(scope) for scope in row.scopes if scope in permissions)),
         created_at=utc(row.created_us),
         expires_at=utc_or_none(row.expires_us),
         used_at=utc_or_none(row.used_us),

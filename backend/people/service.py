@@ -123,10 +123,10 @@ class Keys:
         where it is none, is over or was revoked. Raises StoreError."""
         form = KEY_FORM.fullmatch(shown)
         now_us = time.time_ns() // 1000
-        found = self._keys.of_prefix(form[1], now_us) if form else None
-        if form is None or found is None or not is_secret_of(found[2], form[2]):
+        matching_key = self._keys.of_prefix(form[1], now_us) if form else None
+        if form is None or matching_key is None or not is_secret_of(matching_key[2], form[2]):
             return None
-        key, person, _ = found
+        key, person, _ = matching_key
         self._keys.note_use(key, now_us)
         return Caller(person, ROLES[person.role] & set(key.scopes))
 

@@ -88,20 +88,20 @@ class SignIn:
 
     def of_token(self, token: str) -> Caller | None:
         """Who has a session's token; None where it is over or was never. Raises StoreError."""
-        found = self._sessions.of_token(token_sha256(token), self._now_us())
-        if found is None:
+        session = self._sessions.of_token(token_sha256(token), self._now_us())
+        if session is None:
             return None
-        session_id, person = found
+        session_id, person = session
         return Caller(person, person.permissions, by_cookie=True, session_id=session_id)
 
     def _verified(self, name: str, password: str) -> tuple[Person, str]:
         """The person of a right password, and its hash."""
-        found = self._accounts.with_password(name)
-        password_hash = found[1] if found else None
+        account = self._accounts.with_password(name)
+        password_hash = account[1] if account else None
         right = self._passwords.matches(password_hash, password[: PASSWORD_LENGTH_MAX + 1])
-        if not right or found is None or not found[0].enabled:
+        if not right or account is None or not account[0].enabled:
             raise NotSignedIn(WRONG, "wrong_password")
-        return found
+        return account
 
     def _begin(self, name: str, address: str) -> None:
         """Counts a try. Raises TooManyTries where it comes too soon."""

@@ -30,39 +30,39 @@ class Throttle:
 
     def __init__(self, free: int) -> None:
         self._free = free
-        self._known: OrderedDict[str, Failures] = OrderedDict()
+        self._failures: OrderedDict[str, Failures] = OrderedDict()
 
     def wait_s(self, key: str, now_s: float) -> float:
         """How long the next try has to wait; 0 if it need not."""
-        known = self._fresh(key, now_s)
-        return 0.0 if known is None else max(0.0, known.next_s - now_s)
+        failures = self._fresh(key, now_s)
+        return 0.0 if failures is None else max(0.0, failures.next_s - now_s)
 
     def count(self, key: str, now_s: float) -> None:
         """A try begins; it is taken for a failure until it is forgiven."""
-        known = self._fresh(key, now_s) or Failures(0, now_s, now_s)
-        known.count += 1
-        known.last_s = now_s
-        over = known.count - self._free
-        known.next_s = now_s + (min(WAIT_MAX_S, 2.0 ** min(over, 20)) if over >= 0 else 0.0)
-        self._known[key] = known
-        self._known.move_to_end(key)
-        while len(self._known) > KEYS_MAX:
-            self._known.popitem(last=False)
+        failures = self._fresh(key, now_s) or Failures(0, now_s, now_s)
+        failures.count += 1
+        failures.last_s = now_s
+        over = failures.count - self._free
+        failures.next_s = now_s + (min(WAIT_MAX_S, 2.0 ** min(over, 20)) if over >= 0 else 0.0)
+        self._failures[key] = failures
+        self._failures.move_to_end(key)
+        while len(self._failures) > KEYS_MAX:
+            self._failures.popitem(last=False)
 
     def forget(self, key: str) -> None:
         """The right one came: nothing of it is held against anybody."""
-        self._known.pop(key, None)
+        self._failures.pop(key, None)
 
     def take_back(self, key: str) -> None:
         """The last try was right, and says nothing of those before it."""
-        known = self._known.get(key)
-        if known is not None:
-            known.count -= 1
-            known.next_s = known.last_s
+        failures = self._failures.get(key)
+        if failures is not None:
+            failures.count -= 1
+            failures.next_s = failures.last_s
 
     def _fresh(self, key: str, now_s: float) -> Failures | None:
-        known = self._known.get(key)
-        if known is not None and now_s - known.last_s > FORGET_S:
-            del self._known[key]
+        failures = self._failures.get(key)
+        if failures is not None and now_s - failures.last_s > FORGET_S:
+            del self._failures[key]
             return None
-        return known
+        return failures

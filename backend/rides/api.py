@@ -55,7 +55,7 @@ def list_rides(
     cursor: Annotated[str | None, Query(max_length=200)] = None,
 ) -> Any:
     """Newest first; `next` is the cursor of the following page, or null."""
-    page = rides.list(begin, end, limit, cursor, device=device, **kind.told())
+    page = rides.list(begin, end, limit, cursor, device=device, **kind.filters())
     return json_response(RideList, page)
 
 
@@ -170,8 +170,10 @@ async def ride_again(
     cannot be trusted. Takes a second for some minutes of road, and ends when nobody waits."""
 
     def work(check_connected: Callable[[], None]) -> Any:
-        told = ride_again_with(ride_id, body.told(), check_connected, **body.changes())
-        return json_response(ClosedLoop, told)
+        estimate = ride_again_with(
+            ride_id, body.rider_and_bike(), check_connected, **body.changes()
+        )
+        return json_response(ClosedLoop, estimate)
 
     return await while_connected(request, work)
 

@@ -27,7 +27,7 @@ from backend.errors import FieldError, InvalidRequest, NotFound, SpindleError
 from backend.formats.export import fit, gpx
 from backend.formats.export.blurred import ShownRide, shown_ride, shown_rows
 from backend.formats.export.csv import csv_chunks
-from backend.formats.export.names import told_names
+from backend.formats.export.names import export_names
 from backend.formats.export.seconds import BySecond, by_second
 from backend.store import RideReader, Store
 from backend.store.facts import facts_of
@@ -65,13 +65,13 @@ def export(store: Store, ride: Ride, file_format: str) -> Export:
 
 def as_csv(store: Store, ride: Ride) -> Export:
     """Every recorded row and channel as text."""
-    rows = verified(store, ride).chunks(list(told_names(ride)), CSV_ROWS)
+    rows = verified(store, ride).chunks(list(export_names(ride)), CSV_ROWS)
     return Export(f"{stem(ride)}.csv", "text/csv; charset=utf-8", csv_chunks(ride, rows))
 
 
 def as_parquet(store: Store, ride: Ride) -> Export:
     """Every recorded row and channel as doubles in their units."""
-    names = told_names(ride)
+    names = export_names(ride)
     rows = verified(store, ride).chunks(list(names), ROW_GROUP_ROWS)
     media_type = "application/vnd.apache.parquet"
     chunks = physical_chunks(ride.started_us, names, facts_of(ride), rows)
@@ -147,8 +147,8 @@ def stem(ride: Ride) -> str:
 def safe_name(name: str) -> str:
     """A file name without anything a header or a file system could take for more than a name."""
     last = name.replace("\\", "/").rsplit("/", 1)[-1]
-    kept = "".join(c if c.isascii() and (c.isalnum() or c in "._- ") else "_" for c in last)
-    return kept.strip(". ")[:120] or "ride"
+    safe = "".join(c if c.isascii() and (c.isalnum() or c in "._- ") else "_" for c in last)
+    return safe.strip(". ")[:120] or "ride"
 
 
 def file_chunks(file: BinaryIO) -> Iterator[bytes]:
@@ -175,8 +175,8 @@ def share(store: Store, ride: Ride, file_format: str, blur_m: float) -> Export:
     shown = what_is_shown(store, ride, blur_m)
     name = f"{stem(ride)}-shared.{file_format}"
     if file_format == "csv":
-        pieces = (part(shown.rows, at) for at in range(0, shown.ride.row_count, CSV_ROWS))
-        return Export(name, "text/csv; charset=utf-8", csv_chunks(shown.ride, pieces))
+        chunks = (part(shown.rows, at) for at in range(0, shown.ride.row_count, CSV_ROWS))
+        return Export(name, "text/csv; charset=utf-8", csv_chunks(shown.ride, chunks))
     ridden = by_second(shown.ride.started_us, shown.rows.times_us, shown.values)
     if file_format == "gpx":
         return whole(name, "application/gpx+xml", gpx.gpx_file(shown.ride, ridden))
@@ -230,8 +230,8 @@ def archive(
     pipe = Pipe()
     listed = io.StringIO(newline="")
     rows = csv.writer(listed)
-    told = ("started_at", "name", "notes", "tags", *FIGURES) if blur_m is None else ()
-    rows.writerow(["ride", *told, "files", "left_out"])
+    fields = ("started_at", "name", "notes", "tags", *FIGURES) if blur_m is None else ()
+    rows.writerow(["ride", *fields, "files", "left_out"])
     with ZipFile(pipe, "w") as zipped:
         for ride_id in ride_ids:
             files: list[str] = []
@@ -252,7 +252,7 @@ def archive(
                     name = f"spindle-ride-{ride_id}-{name}"
                 yield from added(zipped, pipe, name, made, packed)
                 files.append(name)
-            cells = facts(ride) if ride and told else [""] * len(told)
+            cells = facts(ride) if ride and fields else [""] * len(fields)
             rows.writerow([ride_id, *cells, "; ".join(files), guarded(" ".join(left_out))])
         zipped.writestr(member(INDEX, ZIP_DEFLATED), listed.getvalue())
     yield pipe.taken()
@@ -278,9 +278,9 @@ def added(zipped: ZipFile, pipe: Pipe, name: str, made: Export, packed: int) -> 
 
 def member(name: str, packed: int) -> ZipInfo:
     """A file of the ZIP, made now."""
-    found = ZipInfo(name, time.localtime()[:6])
-    found.compress_type = packed
-    return found
+    info = ZipInfo(name, time.localtime()[:6])
+    info.compress_type = packed
+    return info
 
 
 def facts(ride: Ride) -> list[object]:

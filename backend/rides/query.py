@@ -49,7 +49,7 @@ class RideKind:
             Query(max_length=200, description="Words, all in name, notes, tags or place."),
         ] = None,
     ) -> None:
-        self._told: dict[str, object] = {
+        self._filters: dict[str, object] = {
             "bike_id": bike,
             "longer_km": longer_km,
             "with_motor": motor,
@@ -58,9 +58,9 @@ class RideKind:
             "words": q,
         }
 
-    def told(self) -> dict[str, object]:
+    def filters(self) -> dict[str, object]:
         """As the service asks for it."""
-        return self._told
+        return self._filters
 
 
 def dated(text: object) -> object:

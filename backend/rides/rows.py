@@ -10,10 +10,10 @@ import numpy as np
 
 from backend.core.channels import Values
 from backend.core.ride import Ride
-from backend.rides.insight.distance import Way, way_of
+from backend.rides.insight.distance import RowDistances, row_distances
 from backend.store import RideReader, Store
 
-WAY = ("speed_kmh", "distance_m")
+DISTANCE_CHANNELS = ("speed_kmh", "distance_m")
 
 
 @dataclass(frozen=True)
@@ -39,9 +39,9 @@ class RideColumns:
         return self.values.get(name)
 
     @cached_property
-    def way(self) -> Way | None:
+    def distances(self) -> RowDistances | None:
         """Of rides that were asked for WAY."""
-        return way_of(self.values, self.start_s, self.seconds)
+        return row_distances(self.values, self.start_s, self.seconds)
 
 
 def columns_of(store: Store, ride_id: int, names: Sequence[str]) -> RideColumns:

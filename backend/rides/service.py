@@ -54,7 +54,7 @@ class Rides:
         """
         sought = self.sought(begin, end, **what)
         page = self._store.rides.list(sought, limit, cursor)
-        items = [self._told(ride) for ride in page.items]
+        items = [self._as_json(ride) for ride in page.items]
         total = self._store.logbook.count(sought) if cursor is None else None
         return {"items": items, "next": page.next, "total": total}
 
@@ -74,7 +74,7 @@ class Rides:
 
     def get(self, ride_id: int) -> dict[str, object]:
         """One ride. Raises NotFound."""
-        return self._told(self._store.rides.get(ride_id))
+        return self._as_json(self._store.rides.get(ride_id))
 
     def patch(
         self,
@@ -84,7 +84,7 @@ class Rides:
         tags: Sequence[str] | None = None,
     ) -> dict[str, object]:
         """Change what people wrote about a ride. Raises NotFound, InvalidRequest."""
-        return self._told(self._store.rides.patch(ride_id, name, notes, tags))
+        return self._as_json(self._store.rides.patch(ride_id, name, notes, tags))
 
     def delete(self, ride_id: int) -> None:
         """Delete a ride; with the last ride of an original file this goes too, on the disk as well.
@@ -125,8 +125,8 @@ class Rides:
     ) -> dict[str, object]:
         """The ride as a Plotly figure; see `backend.rides.traces.figure`."""
         drawn = figure(self._store.rides.reader(ride_id), channels, pixels, language)
-        told: dict[str, object] = drawn.to_plotly_json()
-        return told
+        document: dict[str, object] = drawn.to_plotly_json()
+        return document
 
     def export(self, ride_id: int, file_format: str, blur_m: float | None = None) -> Export:
         """The ride as a file. Raises NotFound, InvalidRequest for what cannot be made of it.
@@ -157,15 +157,15 @@ class Rides:
             raise InvalidRequest("This server cannot replay rides.", code="unsupported")
         return self._replay(self._store.rides.reader(ride_id), **changes)
 
-    def _told(self, ride: Ride) -> dict[str, object]:
-        """A ride as the API tells it, with what is known to be wrong with its samples."""
+    def _as_json(self, ride: Ride) -> dict[str, object]:
+        """A ride as in the API, with what is known to be wrong with its samples."""
         damage = None
         if ride.state == "live":
             ride = replace(ride, summary=self._running(ride.id))
         if ride.state == BAD:
             damage = ROW_DAMAGED
         elif ride.object_key is not None:
-            damage = self._store.soundness.known_damage(expected_of(ride))
+            damage = self._store.soundness.cached_damage(expected_of(ride))
         return {**ride.as_json(), "damage": damage}
 
 

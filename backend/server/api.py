@@ -30,7 +30,7 @@ class Alive:
 @router.get("/health", operation_id="get_health")
 async def get_health(health: Check) -> Health:
     """Whether everything that is to be kept is kept, and how each unit is."""
-    return health.look()
+    return health.current()
 
 
 @probes.get("/healthz", operation_id="get_healthz")

@@ -65,7 +65,7 @@ class Health:
 
 
 class HealthCheck:
-    """Looks at everything that may be wrong; `look` never waits. For any thread.
+    """Looks at everything that may be wrong; `current` never waits. For any thread.
 
     answers: asks the database for nothing in particular. Raises StoreError. soundness: knows which
     rides' files are damaged, entries which rows.
@@ -93,7 +93,7 @@ class HealthCheck:
         """Whether requests can be answered: raises StoreError while the database does not."""
         self._answers()
 
-    def look(self) -> Health:
+    def current(self) -> Health:
         """How things are now."""
         troubles = [
             HealthReason(cast(HealthCode, one.code), one.message, one.part)

@@ -1,7 +1,7 @@
 """SQL and objects: rides, revisions, the library, units, uploads, calibrations; the only door to
 SQLAlchemy and pyarrow."""
 
-from backend.store.bikes import SeenUnit
+from backend.store.bikes import UnitSighting
 from backend.store.health import WriteFault, WriteWatch
 from backend.store.logbook.book import Home, Logbook
 from backend.store.logbook.cards import CardStore
@@ -24,11 +24,11 @@ __all__ = [
     "RidePage",
     "RideReader",
     "RideStore",
-    "SeenUnit",
     "Sought",
     "Store",
     "StorePlace",
     "Totals",
+    "UnitSighting",
     "Upload",
     "UploadStore",
     "Verdict",

@@ -19,7 +19,7 @@ from backend.store.sql import tables as t
 
 
 @dataclass(frozen=True)
-class SeenUnit:
+class UnitSighting:
     """A unit as it says it is. name: its owner's, None where nobody gave it one."""
 
     key: str
@@ -37,8 +37,8 @@ def bike_of_ride(connection: Connection, context: RideContext, started_us: int) 
     key = context.unit_key
     if key is None:
         return None
-    unit = SeenUnit(key, context.device_serial, None, context.device_model)
-    known_unit(connection, key, unit, started_us)
+    unit = UnitSighting(key, context.device_serial, None, context.device_model)
+    bike_of_unit(connection, key, unit, started_us)
     columns = (t.bike_unit.c.bike_id, t.bike_unit.c.from_us, t.bike_unit.c.to_us)
     mine = select(*columns).where(t.bike_unit.c.unit_key == key)
     rows = connection.execute(mine.order_by(t.bike_unit.c.from_us)).all()
@@ -48,11 +48,11 @@ def bike_of_ride(connection: Connection, context: RideContext, started_us: int) 
     return int(begun[-1].bike_id)
 
 
-def known_unit(
-    connection: Connection, key: str, unit: SeenUnit | None = None, now_us: int | None = None
+def bike_of_unit(
+    connection: Connection, key: str, unit: UnitSighting | None = None, now_us: int | None = None
 ) -> int | None:
     """Add a unit that is new, on a bike of its own; returns the bike it is on now."""
-    unit = unit or SeenUnit(key)
+    unit = unit or UnitSighting(key)
     now_us = time.time_ns() // 1000 if now_us is None else now_us
     values = {
         "key": key,

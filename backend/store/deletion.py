@@ -28,7 +28,7 @@ LOG = logging.getLogger(__name__)
 
 MADE = "made"
 FILLED = "filled"
-BESIDE = "beside"
+RELATED = "beside"
 # The folder, among the objects, of uploads that still arrive.
 SPOOL = ".spool"
 # States of an upload whose contents nobody has judged yet; its bytes are needed.
@@ -58,7 +58,7 @@ class Deletions:
         gone = [
             (key, due_us)
             for key, due_us in due
-            if self._objects.unless_held(partial(self._remove, key))
+            if self._objects.unless_in_use(partial(self._remove, key))
         ]
         if gone:
             self._database.write(lambda c: struck_off(c, gone))
@@ -101,7 +101,7 @@ def join_source(connection: Connection, ride_id: int, upload_id: int, part: str)
     if connection.execute(select(t.ride_source.c.id).where(*mine)).first() is None:
         body = {"ride_id": ride_id, "upload_id": upload_id, "part": part}
         connection.execute(insert(t.ride_source).values(body))
-    elif part != BESIDE:
+    elif part != RELATED:
         connection.execute(update(t.ride_source).where(*mine).values(part=part))
 
 

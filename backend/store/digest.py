@@ -42,11 +42,11 @@ def digest(file: RowSource, ride: Ride) -> Digest:
     times = file.times_us(0, file.row_count)
     empty = np.ones(file.row_count, dtype=bool)
     pairs: dict[str, list[tuple[Counts, Counts]]] = {}
-    seen: list[RideEvent] = []
+    events: list[RideEvent] = []
     for channel in ride.channels:
         counts = columns.counts(channel)
         empty &= counts == channel.missing
-        seen += events_of_rows(channel, counts, times)
+        events += events_of_rows(channel, counts, times)
         pairs[channel.name] = pyramid(counts)
     for channel in columns.derived:
         pairs[channel.name] = pyramid(columns.counts(channel))
@@ -55,7 +55,7 @@ def digest(file: RowSource, ride: Ride) -> Digest:
         seconds = filled_seconds(ride.filled, empty, ride.period_us)
         empty &= ~filled_mask(ride.filled, file.row_count, ride.period_us)
     offered = ride.channels + columns.derived
-    found = Digest(
+    result = Digest(
         levels=tuple(
             Level(
                 step,
@@ -66,12 +66,12 @@ def digest(file: RowSource, ride: Ride) -> Digest:
             for depth, step in enumerate(STEPS)
         ),
         summary=summarise(columns, times, ride.period_us, seconds),
-        gaps=find_gaps(times, empty, ride.period_us, ride.noted.pauses),
-        events=tuple(merged(seen, ride.events, SAME_EVENT_S)),
+        gaps=find_gaps(times, empty, ride.period_us, ride.metadata.pauses),
+        events=tuple(merged(events, ride.events, SAME_EVENT_S)),
         rows_empty=int(np.sum(empty)),
     )
     release_memory()
-    return found
+    return result
 
 
 def pyramid(counts: Counts) -> list[tuple[Counts, Counts]]:
@@ -98,7 +98,7 @@ class FileColumns(Mapping[str, Values]):
         if name not in self._recorded and all(name != c.name for c in self.derived):
             raise KeyError(name)
         values = np.empty(self._file.row_count)
-        for start, stop in self._pieces():
+        for start, stop in self._segments():
             values[start:stop] = self._values(name, start, stop)
         return values
 
@@ -114,7 +114,7 @@ class FileColumns(Mapping[str, Values]):
         if channel.name in self._recorded:
             return self._file.counts([channel.name], 0, self._file.row_count)[channel.name]
         counts = np.empty(self._file.row_count, channel.dtype)
-        for start, stop in self._pieces():
+        for start, stop in self._segments():
             counts[start:stop] = channel.to_counts(self._values(channel.name, start, stop))
         return counts
 
@@ -126,7 +126,7 @@ class FileColumns(Mapping[str, Values]):
         factors = {factor: self._values(factor, start, stop) for factor in FACTORS[name]}
         return derive(name, factors, self._gear_ratio)
 
-    def _pieces(self) -> Iterator[tuple[int, int]]:
+    def _segments(self) -> Iterator[tuple[int, int]]:
         """Stretches of the ride: physical values take four times the room of counts."""
         rows = self._file.row_count
         return ((start, min(start + PIECE_ROWS, rows)) for start in range(0, rows, PIECE_ROWS))

@@ -34,8 +34,8 @@ def note_discarded(
 
 def take_back(connection: Connection, keys: Iterable[str]) -> None:
     """Say that these objects are needed, or are gone."""
-    wanted = list(keys)
-    connection.execute(delete(t.discarded_object).where(t.discarded_object.c.key.in_(wanted)))
+    keys_to_keep = list(keys)
+    connection.execute(delete(t.discarded_object).where(t.discarded_object.c.key.in_(keys_to_keep)))
 
 
 def discarded_keys(connection: Connection) -> set[str]:

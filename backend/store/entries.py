@@ -47,7 +47,7 @@ class Entries:
             with self._lock:
                 self._suspects |= met
 
-    def look(self, now_us: int) -> None:
+    def check_next(self, now_us: int) -> None:
         """Look at the next rows, and at those that are or were met damaged. Raises StoreError."""
         with self._lock:
             suspects, self._suspects = self._suspects, set()
@@ -62,10 +62,10 @@ class Entries:
         if len(ids) < ROWS_AT_ONCE:
             self._last_id, self._next_round_us = 0, now_us + ROUND_US
 
-    def look_at_all(self) -> None:
+    def check_all(self) -> None:
         """Look at every row, now. Raises StoreError."""
         while self._next_round_us == 0:
-            self.look(1)
+            self.check_next(1)
 
     def _left_of(self, ride_ids: frozenset[int] | list[int]) -> frozenset[int]:
         """Mend what is damaged of some rides' rows; returns those that stay so."""

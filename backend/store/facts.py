@@ -32,7 +32,7 @@ class Original:
 
 
 @dataclass(frozen=True)
-class KeptRide:
+class StoredRide:
     """A ride as its file and sidecar tell it.
 
     lost_words: why what a person wrote is not known, None where it is. filled_from: files that
@@ -76,17 +76,17 @@ def facts_of(ride: Ride) -> dict[str, object]:
         "cut_short": ride.cut_short,
         "sport": ride.sport,
         "intake": asdict(ride.intake) if ride.intake else None,
-        "noted": metadata_to_json(ride.noted),
+        "noted": metadata_to_json(ride.metadata),
     }
 
 
-def kept_ride(
+def stored_ride(
     facts: Mapping[str, Any],
     sidecar: Mapping[str, Any],
     channels: tuple[ChannelSpec, ...],
     row_count: int,
     key: str,
-) -> KeptRide:
+) -> StoredRide:
     """A ride from the facts of its file, with the words of its sidecar.
 
     channels: as the file's columns have them. Raises KeyError, TypeError or ValueError when the
@@ -112,10 +112,10 @@ def kept_ride(
         cut_short=bool(facts.get("cut_short", False)),
         sport=facts.get("sport"),
         intake=from_members(Intake, facts["intake"]) if facts.get("intake") else None,
-        noted=metadata_from_json(facts.get("noted")),
+        metadata=metadata_from_json(facts.get("noted")),
         tags=clean_tags(sidecar.get("tags", ())),
     )
-    return KeptRide(
+    return StoredRide(
         ride=ride,
         gaps=tuple(from_members(Gap, body) for body in facts["gaps"]),
         events=tuple(from_members(RideEvent, body) for body in facts["events"]),
@@ -127,7 +127,7 @@ def kept_ride(
 
 
 def originals_of(bodies: Iterable[Mapping[str, Any]]) -> tuple[Original, ...]:
-    return tuple(found for found in map(original_of, bodies) if found)
+    return tuple(original for original in map(original_of, bodies) if original)
 
 
 def original_of(body: Mapping[str, Any] | None) -> Original | None:

@@ -68,7 +68,7 @@ def filled_chunks(
             channel.name: np.full(until - at, channel.missing, channel.dtype)
             for channel in ride.channels
         }
-        _put_recorded(file, filling.rows_before, counts, at, until)
+        _copy_recorded(file, filling.rows_before, counts, at, until)
         first, last = np.searchsorted(filling.places, (at, until))
         for name, samples in filling.counts.items():
             counts[name][filling.places[first:last] - at] = samples[first:last]
@@ -76,7 +76,7 @@ def filled_chunks(
         yield RideRows(ride.channels, times_us, counts)
 
 
-def _put_recorded(
+def _copy_recorded(
     file: RideFile, rows_before: int, counts: dict[str, Counts], at: int, until: int
 ) -> None:
     """The rows that the ride has, into those of the grown ride from `at` to `until`."""
@@ -89,7 +89,7 @@ def _put_recorded(
         counts[name][place : place + last - first] = recorded
 
 
-def told_before(
+def facts_before(
     connection: Connection, objects: Objects, ride: Ride, upload_id: str | None, part: str
 ) -> dict[str, object]:
     """Facts of a ride whose rows become others which neither it nor its rows tell.
@@ -99,11 +99,11 @@ def told_before(
     key = str(ride.object_key)
     facts, _, _ = read_facts(objects.local_path(key))
     original, file = upload_file(connection, ride.upload_id), upload_file(connection, upload_id)
-    came = {name: list(facts.get(name, ())) for name in ("filled_from", "earlier")}
+    sources = {name: list(facts.get(name, ())) for name in ("filled_from", "earlier")}
     if part == MADE:
-        came["earlier"] += [original] if original else []
+        sources["earlier"] += [original] if original else []
         original = file
     else:
-        came["filled_from"] += [file] if file else []
+        sources["filled_from"] += [file] if file else []
     replaces = [PurePosixPath(key).stem, *facts.get("replaces", [])]
-    return came | {"replaces": replaces} | ({"original": original} if original else {})
+    return sources | {"replaces": replaces} | ({"original": original} if original else {})

@@ -31,7 +31,7 @@ class WrittenObject:
     sha256: str
     size_bytes: int
     row_count: int
-    found: Digest
+    digest: Digest
     completeness: float | None
 
 

@@ -19,7 +19,7 @@ from backend.errors import StoreError
 from backend.store.bikes import bike_of_ride
 from backend.store.deletion import FILLED, MADE, join_source
 from backend.store.digest import digest
-from backend.store.facts import KeptRide, Original, kept_ride
+from backend.store.facts import Original, StoredRide, stored_ride
 from backend.store.finish import WrittenObject
 from backend.store.logbook.book import set_tags
 from backend.store.named import named_objects
@@ -57,45 +57,45 @@ def damage_of(objects: FileObjects, key: str) -> str | None:
     return None
 
 
-def files_of(kept: KeptRide) -> Iterable[Original]:
+def files_of(stored: StoredRide) -> Iterable[Original]:
     """Every file a ride lives on, also those that held others."""
-    for one in (kept.original, *kept.earlier, *kept.filled_from):
+    for one in (stored.original, *stored.earlier, *stored.filled_from):
         while one is not None:
             yield one
             one = one.container
 
 
-def read_kept(objects: FileObjects, key: str) -> KeptRide:
+def read_stored(objects: FileObjects, key: str) -> StoredRide:
     """A ride as its whole file and sidecar tell it. Raises StoreError when it is not whole."""
     if (reason := damage_of(objects, key)) is not None:
         raise StoreError(f"{key} is no whole ride: {reason}.")
     facts, channels, row_count = read_facts(objects.local_path(key))
     with suppress(StoreError, *NOT_AS_WRITTEN):
-        return kept_ride(facts, read_sidecar(objects, key), channels, row_count, key)
+        return stored_ride(facts, read_sidecar(objects, key), channels, row_count, key)
     try:
-        kept = kept_ride(facts, {}, channels, row_count, key)
+        stored = stored_ride(facts, {}, channels, row_count, key)
     except NOT_AS_WRITTEN as error:
         raise StoreError(f"{key} tells no ride: {error!r}.") from error
-    return replace(kept, lost_words=f"{sidecar_key(key)} is damaged.")
+    return replace(stored, lost_words=f"{sidecar_key(key)} is damaged.")
 
 
-def add_kept(database: Database, objects: FileObjects, kept: KeptRide) -> None:
+def add_stored(database: Database, objects: FileObjects, stored: StoredRide) -> None:
     """Add one ride with its overview, figures and uploads."""
-    ride, written = kept.ride, digested(objects, kept)
+    ride, written = stored.ride, digested(objects, stored)
     completeness = written.completeness
     state = "complete" if completeness in (None, 1.0) else "partial"
 
     def work(connection: Connection) -> None:
         upload_id = None
-        if kept.original is not None:
-            upload_id = upload_of(connection, objects, kept.original, state, completeness)
+        if stored.original is not None:
+            upload_id = upload_of(connection, objects, stored.original, state, completeness)
         ride_id = inserted(connection, row_of(ride) | {"upload_id": upload_id}, ride.context)
         finish_row(connection, ride_id, written)
         set_tags(connection, ride_id, ride.tags)
-        for file in files_of(replace(kept, filled_from=())):
-            held = upload_of(connection, objects, file, state, completeness)
-            join_source(connection, ride_id, held, MADE)
-        for file in kept.filled_from:
+        for file in files_of(replace(stored, filled_from=())):
+            upload_row = upload_of(connection, objects, file, state, completeness)
+            join_source(connection, ride_id, upload_row, MADE)
+        for file in stored.filled_from:
             log_id = upload_of(connection, objects, file, "complete", None, filled=ride_id)
             join_source(connection, ride_id, log_id, FILLED)
 
@@ -113,8 +113,8 @@ def mend_row(database: Database, objects: FileObjects, soundness: Soundness, rid
     key = next((one.key for one in ours if soundness.damage(one) is None), None)
     if row is None or key is None:
         return False
-    kept = read_kept(objects, key)
-    ride, written = kept.ride, digested(objects, kept)
+    stored = read_stored(objects, key)
+    ride, written = stored.ride, digested(objects, stored)
     stays = {column.name: row._mapping[column.name] for column in STAY}
 
     def work(connection: Connection) -> None:
@@ -132,14 +132,14 @@ def mend_row(database: Database, objects: FileObjects, soundness: Soundness, rid
     return True
 
 
-def digested(objects: FileObjects, kept: KeptRide) -> WrittenObject:
+def digested(objects: FileObjects, stored: StoredRide) -> WrittenObject:
     """A ride's object as if it had just been written, its overview and figures worked out anew."""
-    ride, key = kept.ride, str(kept.ride.object_key)
+    ride, key = stored.ride, str(stored.ride.object_key)
     path = objects.local_path(key)
     worked_out = digest(RideFile(path, ride.channels), ride)
-    found = replace(worked_out, gaps=kept.gaps, events=kept.events)
+    result = replace(worked_out, gaps=stored.gaps, events=stored.events)
     size = path.stat().st_size
-    return WrittenObject(key, path.stem, size, ride.row_count, found, ride.completeness)
+    return WrittenObject(key, path.stem, size, ride.row_count, result, ride.completeness)
 
 
 def upload_of(
@@ -152,9 +152,9 @@ def upload_of(
 ) -> int:
     """The row id of the upload that brought a file, made anew; filled: the ride it filled."""
     query = select(t.upload.c.id).where(t.upload.c.sha256 == file.sha256)
-    known = connection.execute(query.order_by(t.upload.c.id).limit(1)).scalar()
-    if known is not None:
-        return int(known)
+    existing = connection.execute(query.order_by(t.upload.c.id).limit(1)).scalar()
+    if existing is not None:
+        return int(existing)
     key = content_key("originals", file.sha256)
     path = objects.root / key
     size, created_us = arrived(path)

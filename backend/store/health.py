@@ -127,16 +127,16 @@ class WriteWatch:
     def note(self, part: str, code: str) -> None:
         """Note that `part` cannot be written because of `code`; in the log once a spell."""
         done = "be trusted" if code == DAMAGED else "be written"
-        trouble = WriteFault(part, code, f"The {part} cannot {done}: {WORDS[code]}.")
+        fault = WriteFault(part, code, f"The {part} cannot {done}: {WORDS[code]}.")
         now_s = self._now_s()
         with self._lock:
             is_new = part not in self._troubles
             if is_new:
                 self._since_s[part] = now_s
-            self._troubles[part] = trouble
+            self._troubles[part] = fault
             self._refused_s[part] = now_s
         if is_new:
-            LOG.error("%s", trouble.message)
+            LOG.error("%s", fault.message)
 
     def worked(self, part: str) -> None:
         """Note that something was written to `part`."""

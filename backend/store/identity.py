@@ -59,10 +59,10 @@ def belonging(view: DatabaseView, objects: FileObjects) -> Belonging:
     if view.identity and folder_id:
         if view.identity == folder_id:
             return Belonging(folder_id)
-        known_by = f"the database is of store {view.identity}, the folder of store {folder_id}"
-        return Belonging(None, reason=known_by)
+        owners = f"the database is of store {view.identity}, the folder of store {folder_id}"
+        return Belonging(None, reason=owners)
     keys = set(objects.keys())
-    unknown = sorted(keys - view.known_keys)
+    unknown = sorted(keys - view.named_keys)
     if unknown:
         some = ", ".join(unknown[:FEW]) + (" ..." if len(unknown) > FEW else "")
         reason = f"the database does not know {len(unknown)} files of the folder ({some})"
@@ -78,14 +78,14 @@ def belonging(view: DatabaseView, objects: FileObjects) -> Belonging:
     return Belonging(view.identity or new_id(), adopted=True)
 
 
-def require(found: Belonging, database: str, objects: FileObjects) -> str:
+def require(state: Belonging, database: str, objects: FileObjects) -> str:
     """The store's id. Raises StoreError with what to do when the two are not one store."""
-    if found.store_id is None:
+    if state.store_id is None:
         raise StoreError(
             f"The database {database} does not belong to the objects in {objects.root}: "
-            f"{found.reason}. {WAYS_OUT}"
+            f"{state.reason}. {WAYS_OUT}"
         )
-    return found.store_id
+    return state.store_id
 
 
 def write_identity(connection: Connection, store_id: str, server_id: str, rebuilding: bool) -> None:

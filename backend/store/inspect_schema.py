@@ -57,14 +57,14 @@ class DatabaseView:
     rebuilding: bool = False
     rides: int = 0
     object_keys: frozenset[str] = frozenset()
-    known_keys: frozenset[str] = frozenset()
+    named_keys: frozenset[str] = frozenset()
     live: tuple[LiveRecording, ...] = ()
 
 
-def inspect_database(url: str, whole: bool = False) -> DatabaseView:
+def inspect_database(url: str, check_contents: bool = False) -> DatabaseView:
     """The contents of a database. Raises StoreError when it cannot be reached or used at all.
 
-    whole: reads every page of an SQLite file, so that a destroyed one is known as such.
+    check_contents: reads every page of an SQLite file, so that a destroyed one is known as such.
     """
     path = sqlite_path(url)
     if path is not None and (not path.exists() or (path.is_file() and path.stat().st_size == 0)):
@@ -73,9 +73,9 @@ def inspect_database(url: str, whole: bool = False) -> DatabaseView:
     try:
         with engine.connect() as connection:
             view = view_of(connection)
-            if path is not None and whole and view.state == OK:
-                found = connection.execute(text("PRAGMA quick_check(1)")).scalar_one()
-                return view if found == "ok" else DatabaseView(DAMAGED, str(found))
+            if path is not None and check_contents and view.state == OK:
+                verdict = connection.execute(text("PRAGMA quick_check(1)")).scalar_one()
+                return view if verdict == "ok" else DatabaseView(DAMAGED, str(verdict))
             if path is None and view.state != OK:
                 require_unicode(connection, shown(url))
             return view
@@ -159,11 +159,11 @@ def view_of(connection: Connection) -> DatabaseView:
         closed = values("SELECT sha256 FROM calibration WHERE sha256 IS NOT NULL")
         objects |= {calibration_key(sha256) for sha256 in closed}
     arrived = values("SELECT sha256 FROM upload WHERE sha256 IS NOT NULL")
-    known = objects | {content_key("originals", sha256) for sha256 in arrived}
+    named_by_rows = objects | {content_key("originals", sha256) for sha256 in arrived}
     # Named twice: a row whose key is damaged still has its object.
     hashes = values("SELECT object_sha256 FROM ride WHERE object_sha256 IS NOT NULL")
     rides += [content_key("rides", sha256, RIDE_SUFFIX) for sha256 in hashes]
-    known |= frozenset(rides)
+    named_by_rows |= frozenset(rides)
     row = connection.execute(text("SELECT store_id, rebuilding FROM store_identity")).first()
     identity, rebuilding = (row.store_id, bool(row.rebuilding)) if row else (None, False)
     discarded = values("SELECT key FROM discarded_object")
@@ -177,7 +177,7 @@ def view_of(connection: Connection) -> DatabaseView:
         rebuilding=rebuilding,
         rides=int(connection.execute(text("SELECT count(*) FROM ride")).scalar_one()),
         object_keys=objects,
-        known_keys=known | {sidecar_key(key) for key in rides} | frozenset(discarded),
+        named_keys=named_by_rows | {sidecar_key(key) for key in rides} | frozenset(discarded),
         live=live_recordings(connection),
     )
 

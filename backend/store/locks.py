@@ -110,7 +110,7 @@ def hold(closing: ExitStack, db_url: str, objects: FileObjects) -> None:
     if path is not None:
         closing.callback(lock_database_file(path).release)
     elif is_postgresql(db_url):
-        closing.callback(AdvisoryLock(db_url, advisory.LOOK_EVERY_S).release)
+        closing.callback(AdvisoryLock(db_url, advisory.CHECK_EVERY_S).release)
     try:
         objects.prepare()
     except OSError as error:

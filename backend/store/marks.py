@@ -48,6 +48,6 @@ class MarkStore:
 def add_events(connection: Connection, ride_id: int, events: Sequence[RideEvent]) -> None:
     """Add to what is known of a ride that is being recorded."""
     row = t.ride.c.id == ride_id
-    known = connection.execute(select(t.ride.c.events).where(row)).scalar_one()
+    existing = connection.execute(select(t.ride.c.events).where(row)).scalar_one()
     added = [asdict(event) for event in events]
-    connection.execute(update(t.ride).where(row).values(events=[*known, *added]))
+    connection.execute(update(t.ride).where(row).values(events=[*existing, *added]))

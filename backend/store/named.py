@@ -49,6 +49,6 @@ def expected_objects(connection: Connection) -> list[Expected]:
     ride, calibration = t.ride.c, t.calibration.c
     rides = select(ride.object_key, ride.object_bytes).where(ride.object_key.is_not(None))
     closed = select(calibration.sha256).where(calibration.sha256.is_not(None))
-    found = [Expected(*row) for row in connection.execute(rides)]
+    expected = [Expected(*row) for row in connection.execute(rides)]
     files = connection.execute(closed).scalars()
-    return found + [Expected(calibration_key(sha256), None) for sha256 in files]
+    return expected + [Expected(calibration_key(sha256), None) for sha256 in files]

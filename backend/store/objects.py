@@ -86,7 +86,7 @@ class Objects(Protocol):
     def local_path(self, key: str) -> Path: ...
     def remove(self, key: str) -> None: ...
     def holding(self) -> AbstractContextManager[None]: ...
-    def unless_held(self, work: Callable[[], bool]) -> bool: ...
+    def unless_in_use(self, work: Callable[[], bool]) -> bool: ...
     def keys(self) -> Iterator[str]: ...
     def table_keys(self) -> Iterator[str]: ...
     def calibrating_keys(self) -> Iterator[str]: ...
@@ -120,7 +120,7 @@ class FileObjects:
         """
         with self.watch.writing(PART, f"The object {key} was not saved"):
             self.disk.flush_file(staged)
-            self._put(staged, self.root / key)
+            self._move(staged, self.root / key)
 
     def publish_json(self, key: str, body: Mapping[str, object]) -> None:
         """Write a small JSON object under a key, in place of the one before. Raises StoreError."""
@@ -178,7 +178,7 @@ class FileObjects:
             with self._turn:
                 self._holders -= 1
 
-    def unless_held(self, work: Callable[[], bool]) -> bool:
+    def unless_in_use(self, work: Callable[[], bool]) -> bool:
         """Do what removes objects, and give its answer; False and nothing while one is held."""
         with self._turn:
             return self._holders == 0 and work()
@@ -206,7 +206,7 @@ class FileObjects:
         """
         target = free_name(self.root / LOST_FOUND / (name or key))
         try:
-            self._put(self.root / key, target)
+            self._move(self.root / key, target)
         except OSError as error:
             raise StoreError(f"{key} was not moved to {LOST_FOUND}/: {error}") from error
         return target.relative_to(self.root).as_posix()
@@ -216,13 +216,13 @@ class FileObjects:
         body = self.read_json(IDENTITY)
         if body is None:
             return None
-        found = body.get("id")
-        if not isinstance(found, str) or not IDENTITY_ID.fullmatch(found):
+        identity = body.get("id")
+        if not isinstance(identity, str) or not IDENTITY_ID.fullmatch(identity):
             raise StoreError(
                 f"{self.root / IDENTITY} holds no identity. Without that file a database that "
                 "knows every object of the folder is taken again."
             )
-        return found
+        return identity
 
     def set_identity(self, store_id: str) -> None:
         """Write the store's id into the folder. Raises StoreError."""
@@ -235,7 +235,7 @@ class FileObjects:
             self.disk.remove(path)
         return len(left)
 
-    def _put(self, source: Path, target: Path) -> None:
+    def _move(self, source: Path, target: Path) -> None:
         """Rename within the store, making folders on the way, each of them flushed."""
         # One at a time: a folder that another thread made is not there for good before its flush.
         with self._making:

@@ -122,8 +122,8 @@ def physical_chunks(
                     pa.field("time_utc", pa.timestamp("us", tz="UTC"), nullable=False),
                     pa.field("t_s", pa.float64(), nullable=False, metadata={"unit": "s"}),
                     *(
-                        pa.field(told, pa.float64(), metadata={"unit": units[name]})
-                        for name, told in names.items()
+                        pa.field(written_name, pa.float64(), metadata={"unit": units[name]})
+                        for name, written_name in names.items()
                     ),
                 ],
                 metadata={EXPORT_KEY: json.dumps(facts, sort_keys=True)},
@@ -213,11 +213,11 @@ def regrouped(channels: Sequence[ChannelSpec], chunks: Iterable[RideRows]) -> It
         count += len(chunk.times_us)
         if count < ROW_GROUP_ROWS:
             continue
-        whole = joined(channels, waiting)
+        combined = joined(channels, waiting)
         cut = count - count % ROW_GROUP_ROWS
         for start in range(0, cut, ROW_GROUP_ROWS):
-            yield sliced(whole, start, start + ROW_GROUP_ROWS)
-        waiting, count = [sliced(whole, cut, count)], count - cut
+            yield sliced(combined, start, start + ROW_GROUP_ROWS)
+        waiting, count = [sliced(combined, cut, count)], count - cut
     if count:
         yield joined(channels, waiting)
 
@@ -273,13 +273,13 @@ class RideFile:
         if not names:
             return {}
         table = self._read(list(names), start, stop)
-        found: dict[str, Counts] = {}
+        columns: dict[str, Counts] = {}
         for name in names:
             column = table[name]
             if column.null_count:
                 column = column.fill_null(self._channels[name].missing)
-            found[name] = column.to_numpy()
-        return found
+            columns[name] = column.to_numpy()
+        return columns
 
     def verify(self) -> None:
         """Read every page. Raises StoreError when one is damaged."""

@@ -23,7 +23,7 @@ from backend.errors import StoreError
 from backend.store.soundness import CHANGED, damaged_samples
 from backend.store.sql.blobs import Rows16
 
-READERS_KEPT = 8
+READERS_CACHED = 8
 
 LoadLevel = Callable[[int, int], Level | None]
 
@@ -88,7 +88,7 @@ class RideReader:
         if self.ride.period_us is not None:
             return np.arange(start, stop, dtype=np.int64) * self.ride.period_us
         if self._times is None:
-            with self._told():
+            with self._reporting_damage():
                 self._times = self._source.times_us(0, self.row_count)
         return self._times[start:stop]
 
@@ -97,7 +97,7 @@ class RideReader:
         needed: dict[str, None] = {}
         for name in names:
             needed |= dict.fromkeys([name] if name in self._recorded else FACTORS[name])
-        with self._told():
+        with self._reporting_damage():
             stored = self._source.counts(list(needed), start, stop)
         return {
             name: stored[name] if name in self._recorded else self._derive(name, stored)
@@ -127,8 +127,8 @@ class RideReader:
 
     def chunks(self, names: Sequence[str], rows: int) -> Iterator[RideRows]:
         """The whole ride, `rows` rows at a time."""
-        known = {channel.name: channel for channel in self.offered}
-        channels = tuple(known[name] for name in names)
+        offered = {channel.name: channel for channel in self.offered}
+        channels = tuple(offered[name] for name in names)
         for start in range(0, self.row_count, rows):
             stop = min(start + rows, self.row_count)
             counts = self.counts(names, start, stop)
@@ -145,7 +145,7 @@ class RideReader:
         return self._levels[step]
 
     @contextmanager
-    def _told(self) -> Iterator[None]:
+    def _reporting_damage(self) -> Iterator[None]:
         """A page whose checksum is wrong is damage of this ride."""
         try:
             yield
@@ -181,7 +181,7 @@ class ReaderCache:
                 # One that changed or went while it was opened is not kept.
                 if self._forgotten == forgotten:
                     self._readers[ride_id] = reader
-                while len(self._readers) > READERS_KEPT:
+                while len(self._readers) > READERS_CACHED:
                     self._readers.popitem(last=False)
         return reader
 

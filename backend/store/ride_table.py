@@ -46,7 +46,7 @@ INTEGER_MAX = 2**63 - 1
 CARD = ("place", "country", "zone", "is_loop", "speed_line")
 
 
-def whole_ride() -> Select[Any]:
+def full_ride_query() -> Select[Any]:
     """Rides with their figures and the upload they came with."""
     return (
         select(
@@ -62,53 +62,53 @@ def whole_ride() -> Select[Any]:
     )
 
 
-def rides_whole(connection: Connection, ride_ids: Sequence[int]) -> tuple[Ride, ...]:
+def rides_by_ids(connection: Connection, ride_ids: Sequence[int]) -> tuple[Ride, ...]:
     """Rides by their ids, in that order; those that are not there are left out.
 
     One whose row is damaged has the state `bad`, and of it what can still be read.
     """
-    wanted = whole_ride().where(t.ride.c.id.in_(ride_ids))
+    query = full_ride_query().where(t.ride.c.id.in_(ride_ids))
     try:
-        found: Sequence[Row[Any]] = connection.execute(wanted).all()
+        rows: Sequence[Row[Any]] = connection.execute(query).all()
     except NOT_AS_WRITTEN:
-        found = [row for ride_id in ride_ids if (row := lone_row(connection, ride_id)) is not None]
+        rows = [row for ride_id in ride_ids if (row := lone_row(connection, ride_id)) is not None]
     tags = tags_of(connection, ride_ids)
-    rides = {row.id: ride_from_row(row, tags.get(row.id, ())) for row in found}
+    rides = {row.id: ride_from_row(row, tags.get(row.id, ())) for row in rows}
     return tuple(rides[ride_id] for ride_id in ride_ids if ride_id in rides)
 
 
 def damaged_rows(connection: Connection, ride_ids: Sequence[int]) -> list[int]:
     """Those of some rides whose rows are damaged."""
-    return [ride.id for ride in rides_whole(connection, ride_ids) if ride.state == BAD]
+    return [ride.id for ride in rides_by_ids(connection, ride_ids) if ride.state == BAD]
 
 
 def tags_of(connection: Connection, ride_ids: Sequence[int]) -> dict[int, tuple[str, ...]]:
     """The tags of those rides that have any."""
     query = select(t.ride_tag).where(t.ride_tag.c.ride_id.in_(ride_ids)).order_by(t.ride_tag.c.tag)
-    found: dict[int, tuple[str, ...]] = {}
+    tags: dict[int, tuple[str, ...]] = {}
     for row in connection.execute(query):
-        found[row.ride_id] = (*found.get(row.ride_id, ()), row.tag)
-    return found
+        tags[row.ride_id] = (*tags.get(row.ride_id, ()), row.tag)
+    return tags
 
 
 def lone_row(connection: Connection, ride_id: int) -> Row[Any] | None:
     """One ride's row; of a damaged one its own columns, where the rest cannot be read either."""
     mine = t.ride.c.id == ride_id
-    for query in (whole_ride().where(mine), select(t.ride).where(mine)):
+    for query in (full_ride_query().where(mine), select(t.ride).where(mine)):
         with suppress(*NOT_AS_WRITTEN):
             return connection.execute(query).first()
     return None
 
 
 def ride_from_row(row: Row[Any], tags: tuple[str, ...]) -> Ride:
-    """A row of `whole_ride` -> ride; a damaged row -> a ride in the state `bad`."""
+    """A row of `full_ride_query` -> ride; a damaged row -> a ride in the state `bad`."""
     with suppress(*NOT_AS_WRITTEN):
         named = named_objects(row.object_key, row.object_sha256)
         if is_sound(row, t.ride.c) and len(named) < 2:
             ride = sound_ride(row, tags)
-            known = all(event.kind in KINDS for event in ride.events)
+            kinds_known = all(event.kind in KINDS for event in ride.events)
             # A number that is no time, or a value that JSON cannot have, shows here.
-            if known and ride.state in STATES and ride.origin in ORIGINS and ride.as_json():
+            if kinds_known and ride.state in STATES and ride.origin in ORIGINS and ride.as_json():
                 return ride
     return damaged_ride(row, tags)
 
@@ -138,7 +138,7 @@ def damaged_ride(row: Row[Any], tags: tuple[str, ...]) -> Ride:
 
 
 def sound_ride(row: Row[Any], tags: tuple[str, ...]) -> Ride:
-    """A row of `whole_ride` -> ride. Raises one of `NOT_AS_WRITTEN` where it makes no ride."""
+    """A row of `full_ride_query` -> ride. Raises one of `NOT_AS_WRITTEN` where it makes no ride."""
     body = row._mapping
     place = RidePlace(body["place"], body["country"], body["zone"], body["is_loop"])
     channels = channel_list(body["channels"])
@@ -169,7 +169,7 @@ def sound_ride(row: Row[Any], tags: tuple[str, ...]) -> Ride:
         bike_id=body["bike_id"],
         sport=body["sport"],
         intake=Intake(**body["intake"]) if body["intake"] else None,
-        noted=metadata_from_json(body["noted"]),
+        metadata=metadata_from_json(body["noted"]),
         same_ride_as=body["same_ride_as"],
         tags=tags,
         place=None if place == RidePlace() else place,
@@ -225,7 +225,7 @@ def row_of(ride: Ride) -> dict[str, object]:
         "cut_short": ride.cut_short,
         "sport": ride.sport,
         "intake": asdict(ride.intake) if ride.intake else None,
-        "noted": metadata_to_json(ride.noted),
+        "noted": metadata_to_json(ride.metadata),
         "same_ride_as": ride.same_ride_as,
     }
 
@@ -284,8 +284,8 @@ def upload_file(connection: Connection, token: str | None) -> dict[str, object] 
         return None
     file: dict[str, object] = {"sha256": row.sha256, "name": row.name}
     if row.part_of is not None:
-        whole = select(t.upload.c.token).where(t.upload.c.id == row.part_of)
-        file["container"] = upload_file(connection, connection.execute(whole).scalar())
+        container = select(t.upload.c.token).where(t.upload.c.id == row.part_of)
+        file["container"] = upload_file(connection, connection.execute(container).scalar())
     return file
 
 
@@ -301,21 +301,21 @@ def finish_row(connection: Connection, ride_id: int, written: WrittenObject) -> 
             object_key=written.key,
             object_sha256=written.sha256,
             object_bytes=written.size_bytes,
-            gaps=[asdict(gap) for gap in written.found.gaps],
-            events=[asdict(event) for event in written.found.events],
+            gaps=[asdict(gap) for gap in written.digest.gaps],
+            events=[asdict(event) for event in written.digest.events],
             completeness=written.completeness,
         )
     )
     connection.execute(delete(t.ride_summary).where(t.ride_summary.c.ride_id == ride_id))
     connection.execute(
-        insert(t.ride_summary).values(ride_id=ride_id, **asdict(written.found.summary))
+        insert(t.ride_summary).values(ride_id=ride_id, **asdict(written.digest.summary))
     )
     connection.execute(delete(t.ride_lod).where(t.ride_lod.c.ride_id == ride_id))
     connection.execute(
         insert(t.ride_lod),
         [
             {"ride_id": ride_id, "step": level.step, "payload": encode_level(level)}
-            for level in written.found.levels
+            for level in written.digest.levels
         ],
     )
 
@@ -327,11 +327,13 @@ def refill_row(
 
     What people wrote stays, and what `finish_row` says.
     """
-    said = {key: value for key, value in row_of(ride).items() if key not in STAYS}
+    stated = {key: value for key, value in row_of(ride).items() if key not in STAYS}
     if upload_id is not None:
-        said["upload_id"] = upload_id
+        stated["upload_id"] = upload_id
     changed = connection.execute(
-        update(t.ride).where(t.ride.c.id == ride.id, t.ride.c.object_key == object_key).values(said)
+        update(t.ride)
+        .where(t.ride.c.id == ride.id, t.ride.c.object_key == object_key)
+        .values(stated)
     )
     return changed.rowcount == 1
 

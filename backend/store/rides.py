@@ -37,7 +37,7 @@ from backend.store.deletion import (
 )
 from backend.store.discard import note_discarded, with_sidecar
 from backend.store.entries import Entries
-from backend.store.filling import Filling, filled_chunks, grown, told_before
+from backend.store.filling import Filling, facts_before, filled_chunks, grown
 from backend.store.finish import RowsInMemory, drafted, write_object
 from backend.store.logbook.book import set_tags
 from backend.store.logbook.cards import note_words
@@ -54,12 +54,12 @@ from backend.store.ride_table import (
     refill_row,
     remove_ride,
     ride_row,
-    rides_whole,
+    rides_by_ids,
     row_of,
     upload_file,
     upload_key,
 )
-from backend.store.sidecar import keep_words
+from backend.store.sidecar import save_words
 from backend.store.soundness import Soundness
 from backend.store.sql import tables as t
 from backend.store.sql.blobs import Rows16, decode_level, encode_tail
@@ -166,12 +166,12 @@ class RideStore:
         """Say what was true of the bike, when it is known only after the start."""
         self._database.write(lambda c: correct(c, ride_id, context=context))
 
-    def redate(self, ride_id: int, by_us: int, told: RideEvent) -> None:
+    def redate(self, ride_id: int, by_us: int, event: RideEvent) -> None:
         """Move the start of a live ride, and say so among its events. Raises StoreError."""
 
         def work(connection: Connection) -> None:
             correct(connection, ride_id, by_us=by_us)
-            add_events(connection, ride_id, [told])
+            add_events(connection, ride_id, [event])
 
         self._database.write(work)
 
@@ -198,7 +198,7 @@ class RideStore:
             def work(connection: Connection) -> None:
                 finish_row(connection, ride.id, written)
                 connection.execute(delete(t.ride_tail).where(t.ride_tail.c.ride_id == ride.id))
-                keep_words(connection, self._objects, ride.id)
+                save_words(connection, self._objects, ride.id)
 
             self._database.write(work)
         self._recording.discard(ride.id)
@@ -284,7 +284,7 @@ class RideStore:
         file = RideFile(self._objects.local_path(key), ride.channels)
         chunks = filled_chunks(file, ride, filling)
         with drafted(self._objects, ride.channels, chunks) as rows:
-            return self._put_anew(ride, grown(ride, filling), rows, upload_id, FILLED)
+            return self._replace_object(ride, grown(ride, filling), rows, upload_id, FILLED)
 
     def replace(self, ride: Ride, fuller: Ride, rows: RideRows, upload_id: str) -> Ride:
         """Make a finished ride what a fuller file says of it; its number and words stay.
@@ -292,16 +292,16 @@ class RideStore:
         The file that it was made of stays beside the new one. As `fill` otherwise.
         """
         new = replace(fuller, id=ride.id, name=ride.name, same_ride_as=ride.same_ride_as)
-        return self._put_anew(ride, new, RowsInMemory(rows), upload_id, MADE)
+        return self._replace_object(ride, new, RowsInMemory(rows), upload_id, MADE)
 
-    def _put_anew(
+    def _replace_object(
         self, ride: Ride, new: Ride, rows: RowSource, upload_id: str | None, part: str
     ) -> Ride:
         """Let a ride point to a new object, and note what its upload gave."""
         key = str(ride.object_key)
         with self._objects.holding():
             more = self._database.read(
-                lambda c: told_before(c, self._objects, ride, upload_id, part)
+                lambda c: facts_before(c, self._objects, ride, upload_id, part)
             )
             counted = part == FILLED
             written = write_object(self._objects, new, rows, counted=counted, more=more)
@@ -312,7 +312,7 @@ class RideStore:
                 if not refill_row(connection, new, key, made_of):
                     raise Conflict(f"Ride {ride.id} is another since it was looked at.")
                 finish_row(connection, ride.id, written)
-                keep_words(connection, self._objects, ride.id)
+                save_words(connection, self._objects, ride.id)
                 if source is not None:
                     join_source(connection, ride.id, source, part)
                 if not is_needed(connection, key):
@@ -338,11 +338,11 @@ class RideStore:
 
     def get(self, ride_id: int) -> Ride:
         """One ride. Raises NotFound."""
-        found = self._database.read(lambda c: rides_whole(c, [ride_id]))
-        if not found:
+        rides = self._database.read(lambda c: rides_by_ids(c, [ride_id]))
+        if not rides:
             raise NotFound(f"There is no ride {ride_id}.")
-        self._entries.suspect(found)
-        return found[0]
+        self._entries.suspect(rides)
+        return rides[0]
 
     def list(
         self, sought: Sought | None = None, limit: int = 50, cursor: str | None = None
@@ -378,7 +378,7 @@ class RideStore:
                 note_words(connection, ride_id)
             if cleaned is not None:
                 set_tags(connection, ride_id, cleaned)
-            keep_words(connection, self._objects, ride_id, even_if_empty=True)
+            save_words(connection, self._objects, ride_id, even_if_empty=True)
 
         if changes or cleaned is not None:
             self._database.write(work)
@@ -397,10 +397,10 @@ class RideStore:
             # A damaged state may hide that rows are still coming.
             state = select(t.ride.c.state).where(t.ride.c.id == ride_id)
             recorded = ride_id in self._recording
-            found: str | None = LIVE if recorded else connection.execute(state).scalar()
-            if found not in (None, LIVE):
+            current_state: str | None = LIVE if recorded else connection.execute(state).scalar()
+            if current_state not in (None, LIVE):
                 forget_ride(connection, ride_id, now_us)
-            return found
+            return current_state
 
         found = self._database.write(work)
         if found is None:

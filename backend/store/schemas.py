@@ -30,33 +30,33 @@ class SchemaFiles(MutableMapping[str, bytes]):
     def __init__(self, folder: Path) -> None:
         self._folder = folder
         self._lock = threading.Lock()
-        self._kept: dict[str, bytes] = {}
+        self._schemas: dict[str, bytes] = {}
         try:
             folder.mkdir(parents=True, exist_ok=True)
             files = [file for file in folder.glob(f"*{SUFFIX}") if NAME.fullmatch(file.stem)]
             files.sort(key=lambda file: file.stat().st_mtime_ns)
             for file in files[-SCHEMAS_MAX:]:
-                self._kept[file.stem] = file.read_bytes()
+                self._schemas[file.stem] = file.read_bytes()
         except OSError as error:
             LOG.warning("%s: kept descriptions cannot be read: %s", folder, error)
 
     def __getitem__(self, name: str) -> bytes:
         with self._lock:
-            return self._kept[name]
+            return self._schemas[name]
 
     def __setitem__(self, name: str, compressed: bytes) -> None:
         if not NAME.fullmatch(name):
             raise ValueError(f"{name} is no hash of a schema")
         with self._lock:
-            self._kept[name] = compressed
-            surplus = list(self._kept)[:-SCHEMAS_MAX]
+            self._schemas[name] = compressed
+            surplus = list(self._schemas)[:-SCHEMAS_MAX]
             self._write(name, compressed)
         for old in surplus:
             del self[old]
 
     def __delitem__(self, name: str) -> None:
         with self._lock:
-            del self._kept[name]
+            del self._schemas[name]
             try:
                 self._file(name).unlink(missing_ok=True)
             except OSError as error:
@@ -64,11 +64,11 @@ class SchemaFiles(MutableMapping[str, bytes]):
 
     def __iter__(self) -> Iterator[str]:
         with self._lock:
-            return iter(tuple(self._kept))
+            return iter(tuple(self._schemas))
 
     def __len__(self) -> int:
         with self._lock:
-            return len(self._kept)
+            return len(self._schemas)
 
     def _file(self, name: str) -> Path:
         return self._folder / f"{name}{SUFFIX}"

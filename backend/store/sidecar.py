@@ -61,7 +61,7 @@ def write_sidecar(
     objects.publish_json(sidecar_key(ride_key), body)
 
 
-def keep_words(
+def save_words(
     connection: Connection, objects: Objects, ride_id: int, even_if_empty: bool = False
 ) -> None:
     """Write a finished ride's sidecar as the transaction has it, when there is something to say."""

@@ -72,7 +72,7 @@ class Soundness:
         """What is wrong with an object, None when nothing is; hashed unless it was before."""
         return self._damage(expected, read=True)
 
-    def known_damage(self, expected: Expected) -> str | None:
+    def cached_damage(self, expected: Expected) -> str | None:
         """As `damage`, without reading the file: what its size and earlier looks tell."""
         return self._damage(expected, read=False)
 
@@ -84,33 +84,33 @@ class Soundness:
             return None, MISSING
         except OSError:
             return None, UNREADABLE
-        found = self._judged(expected, file)
-        if found is None:
+        damage = self._judged(expected, file)
+        if damage is None:
             return file, None
         file.close()
-        return None, found
+        return None, damage
 
     def require(self, ride: Ride) -> None:
         """Raises ObjectDamaged unless a ride's row and samples are what was written."""
         require_row(ride)
-        if ride.object_key is not None and (found := self.damage(expected_of(ride))):
-            raise damaged_samples(ride.id, ride.object_key, found)
+        if ride.object_key is not None and (damage := self.damage(expected_of(ride))):
+            raise damaged_samples(ride.id, ride.object_key, damage)
 
     def open_ride(self, ride: Ride) -> BinaryIO:
         """A finished ride's file, every byte of it verified. Raises ObjectDamaged, Conflict."""
         require_row(ride)
         if ride.object_key is None:
             raise Conflict(f"Ride {ride.id} is being recorded: export it when it ended.")
-        file, found = self.opened(expected_of(ride))
+        file, damage = self.opened(expected_of(ride))
         if file is None:
-            raise damaged_samples(ride.id, ride.object_key, found or MISSING)
+            raise damaged_samples(ride.id, ride.object_key, damage or MISSING)
         return file
 
     def open_original(self, ride: Ride, name: str, key: str, size_bytes: int) -> BinaryIO:
         """The file a ride came from, every byte of it verified. Raises ObjectDamaged."""
-        file, found = self.opened(Expected(key, size_bytes))
+        file, damage = self.opened(Expected(key, size_bytes))
         if file is None:
-            raise damaged_original(ride.id, name, key, found or MISSING)
+            raise damaged_original(ride.id, name, key, damage or MISSING)
         return file
 
     def scrub(self, now_us: int, objects: Callable[[], Iterable[Expected]]) -> None:
@@ -122,22 +122,22 @@ class Soundness:
         if not self._waiting and now_us >= self._next_round_us:
             self._next_round_us = now_us + ROUND_US
             self._waiting.extend(objects())
-            there = {expected.key for expected in self._waiting}
+            waiting = {expected.key for expected in self._waiting}
             with self._lock:
-                kept = {key: value for key, value in self._verdicts.items() if key in there}
-                self._verdicts = kept
+                verdicts = {key: value for key, value in self._verdicts.items() if key in waiting}
+                self._verdicts = verdicts
         read = 0
         while self._waiting and read < SCRUB_BYTES:
             expected = self._waiting.popleft()
-            file, found = self.opened(expected)
+            file, damage = self.opened(expected)
             if file is not None:
                 read += file.seek(0, 2)
                 file.close()
-            elif found is not None:
+            elif damage is not None:
                 suspects.add(expected.key)
             read += 1
-        there_now = [one for one in objects() if one.key in suspects] if suspects else []
-        self.damaged = {one.key: found for one in there_now if (found := self.damage(one))}
+        present = [one for one in objects() if one.key in suspects] if suspects else []
+        self.damaged = {one.key: damage for one in present if (damage := self.damage(one))}
 
     def _damage(self, expected: Expected, read: bool) -> str | None:
         try:
@@ -147,21 +147,21 @@ class Soundness:
         except OSError:
             return UNREADABLE
         with self._lock:
-            known = self._verdicts.get(expected.key)
-        if known is not None and known[0] == signature:
-            return known[1]
+            verdict = self._verdicts.get(expected.key)
+        if verdict is not None and verdict[0] == signature:
+            return verdict[1]
         if expected.size_bytes is not None and signature[1] != expected.size_bytes:
             return WRONG_SIZE
         if not read:
             return None
-        file, found = self.opened(expected)
+        file, damage = self.opened(expected)
         if file is not None:
             file.close()
-        return found
+        return damage
 
     def _judged(self, expected: Expected, file: BinaryIO) -> str | None:
         """Hash an open file from its start to its end and go back to the start."""
-        found: str | None = None
+        damage: str | None = None
         digest = hashlib.sha256()
         try:
             signature = signature_of(os.fstat(file.fileno()))
@@ -171,22 +171,22 @@ class Soundness:
         except OSError:
             return UNREADABLE
         if digest.hexdigest() != expected.sha256:
-            known = expected.size_bytes
-            found = CHANGED if known is None or signature[1] == known else WRONG_SIZE
-        self._remember(expected.key, signature, found)
-        return found
+            size_bytes = expected.size_bytes
+            damage = CHANGED if size_bytes is None or signature[1] == size_bytes else WRONG_SIZE
+        self._remember(expected.key, signature, damage)
+        return damage
 
-    def _remember(self, key: str, signature: Signature, found: str | None) -> None:
+    def _remember(self, key: str, signature: Signature, damage: str | None) -> None:
         with self._lock:
             before = self._verdicts.get(key)
-            self._verdicts[key] = (signature, found)
-        if found is not None and (before is None or before[1] != found):
-            LOG.error("The object %s is damaged: %s.", self._root / key, WORDS[found])
+            self._verdicts[key] = (signature, damage)
+        if damage is not None and (before is None or before[1] != damage):
+            LOG.error("The object %s is damaged: %s.", self._root / key, WORDS[damage])
 
 
-def signature_of(found: os.stat_result) -> Signature:
+def signature_of(status: os.stat_result) -> Signature:
     """What changes when a file is written: time of change, size, inode."""
-    return found.st_mtime_ns, found.st_size, found.st_ino
+    return status.st_mtime_ns, status.st_size, status.st_ino
 
 
 def expected_of(ride: Ride) -> Expected:
@@ -203,27 +203,27 @@ def require_row(ride: Ride) -> None:
         )
 
 
-def damaged_samples(ride_id: int, key: str, found: str) -> ObjectDamaged:
+def damaged_samples(ride_id: int, key: str, damage: str) -> ObjectDamaged:
     """Why a ride's samples are not shown, and what to do."""
     return ObjectDamaged(
-        f"The samples of ride {ride_id} are damaged: {WORDS[found]} ({key}). Nothing of them was "
+        f"The samples of ride {ride_id} are damaged: {WORDS[damage]} ({key}). Nothing of them was "
         "sent. Restore this file from a backup; or, if you have the file the ride came from, "
         "delete the ride and import it again."
     )
 
 
-def damaged_original(ride_id: int, name: str, key: str, found: str) -> ObjectDamaged:
+def damaged_original(ride_id: int, name: str, key: str, damage: str) -> ObjectDamaged:
     """Why an original is not sent, and what to do."""
     return ObjectDamaged(
-        f"The original file of ride {ride_id}, {name!r}, is damaged: {WORDS[found]} ({key}). "
+        f"The original file of ride {ride_id}, {name!r}, is damaged: {WORDS[damage]} ({key}). "
         "Nothing of it was sent. Restore it from a backup, or import the same file again; the "
         "ride itself is not touched by this."
     )
 
 
-def damaged_upload(name: str, key: str, found: str) -> ObjectDamaged:
+def damaged_upload(name: str, key: str, damage: str) -> ObjectDamaged:
     """Why a file that arrived is not read, and what to do."""
     return ObjectDamaged(
-        f"The file {name!r} is damaged since it arrived: {WORDS[found]} ({key}). It was not read. "
+        f"The file {name!r} is damaged since it arrived: {WORDS[damage]} ({key}). It was not read. "
         "Send it again."
     )

@@ -73,11 +73,11 @@ class Store:
 
     def try_again(self) -> None:
         """Write a little where writes are refused now, so that the end of the trouble is seen."""
-        for trouble in self.watch.troubles:
-            if trouble.part == self.database.part:
+        for fault in self.watch.troubles:
+            if fault.part == self.database.part:
                 self.database.try_write()
             else:
-                self.objects.try_write(trouble.part)
+                self.objects.try_write(fault.part)
 
     def recover(self) -> list[int]:
         """Finish what a crash left: half written files, other servers' rides, unknown objects.
@@ -97,10 +97,10 @@ class Store:
                 continue
             if ride is not None:
                 finished.append(ride.id)
-                tell_of_orphan(orphan, ride)
-        known = self.database.read(named_keys)
+                log_orphan(orphan, ride)
+        named = self.database.read(named_keys)
         self.deletions.sweep(None)
-        self._put_aside(known)
+        self._move_unnamed(named)
         return finished
 
     def sweep(self, now_us: int) -> None:
@@ -114,7 +114,7 @@ class Store:
     def scrub(self, now_us: int) -> None:
         """Verify a few of the rides' rows and objects, all of them within a day."""
         mended = self.entries.mended
-        self.entries.look(now_us)
+        self.entries.check_next(now_us)
         # What is worked out of their objects is due again.
         self.rides.finishes += self.entries.mended - mended
         self.soundness.scrub(now_us, lambda: self.database.read(expected_objects))
@@ -134,9 +134,9 @@ class Store:
     ) -> None:
         self.close()
 
-    def _put_aside(self, known: set[str]) -> None:
+    def _move_unnamed(self, named: set[str]) -> None:
         """Move what the database does not know to `lost+found/`; nothing is unlinked."""
-        unknown = [(key, key) for key in sorted(set(self.objects.keys()) - known)]
+        unknown = [(key, key) for key in sorted(set(self.objects.keys()) - named)]
         spooled = [path.name for path in self.uploads.unknown_spooled()]
         unknown += [(f"{SPOOL}/{token}", f"uploads/{token}") for token in spooled]
         for number, (key, name) in enumerate(unknown):
@@ -156,7 +156,7 @@ class Store:
             )
 
 
-def tell_of_orphan(orphan: Orphan, ride: Ride) -> None:
+def log_orphan(orphan: Orphan, ride: Ride) -> None:
     """Say in the log that a ride may lack its end."""
     if ride.cut_short:
         beat_us = orphan.heartbeat_us
@@ -206,13 +206,13 @@ def opened_store(db_url: str, objects: FileObjects) -> Store:
     try:
         hold(closing, db_url, objects)
         # Another server may have come and gone since the first look.
-        found = belonging(inspect_database(db_url), objects)
-        store_id = require(found, shown(db_url), objects)
+        state = belonging(inspect_database(db_url), objects)
+        store_id = require(state, shown(db_url), objects)
         database = Database(db_url, objects.watch)
         closing.callback(database.close)
         store = Store(database, objects, closing, server_id)
         closing.callback(store.rides.close)
-        if found.adopted:
+        if state.adopted:
             objects.set_identity(store_id)
         database.write(lambda c: write_identity(c, store_id, server_id, rebuilding=False))
         if is_postgresql(db_url):

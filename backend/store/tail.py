@@ -57,11 +57,11 @@ def tails(database: Database, ride_id: int) -> Iterator[tuple[int, int, bytes]]:
     next_start = 0
     while True:
         query = ordered.where(t.ride_tail.c.row_start >= next_start)
-        found = database.read(partial(fetched, query))
-        yield from found
-        if len(found) < TAILS_AT_ONCE:
+        rows = database.read(partial(fetched, query))
+        yield from rows
+        if len(rows) < TAILS_AT_ONCE:
             return
-        next_start = found[-1][0] + 1
+        next_start = rows[-1][0] + 1
 
 
 def fetched(query: Select[Any], connection: Connection) -> list[tuple[int, int, bytes]]:

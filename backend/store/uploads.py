@@ -23,7 +23,7 @@ from sqlalchemy import Connection, Row, Select, func, insert, select, union_all,
 from backend.core.described import described
 from backend.core.ride import iso_utc
 from backend.errors import BadFile, Conflict, NotFound, StoreError
-from backend.store.deletion import BESIDE, MADE, Deletions, forget_upload, join_source
+from backend.store.deletion import MADE, RELATED, Deletions, forget_upload, join_source
 from backend.store.objects import Objects, content_key, file_sha256
 from backend.store.ride_table import upload_key
 from backend.store.sql import tables as t
@@ -142,8 +142,8 @@ class UploadStore:
         }
 
         def work(connection: Connection) -> None:
-            whole = upload_key(connection, part_of)
-            connection.execute(insert(t.upload).values(values | {"part_of": whole}))
+            container = upload_key(connection, part_of)
+            connection.execute(insert(t.upload).values(values | {"part_of": container}))
 
         self._database.write(work)
         return self.get(token)
@@ -194,7 +194,7 @@ class UploadStore:
         ):
             return file.read(size)
 
-    def keep_original(self, token: str) -> Upload:
+    def store_original(self, token: str) -> Upload:
         """Move the whole file among the objects, and note its hash.
 
         It stays as long as a ride that comes from it; without one it goes with its upload.
@@ -224,7 +224,7 @@ class UploadStore:
         self,
         token: str,
         verdict: Verdict,
-        beside: Sequence[int] = (),
+        related: Sequence[int] = (),
         made: Sequence[int] = (),
     ) -> Upload:
         """Say what became of an upload, which rides were made from it, and which it is beside of.
@@ -237,9 +237,9 @@ class UploadStore:
             key = connection.execute(select(t.upload.c.id).where(mine)).scalar()
             if key is None:
                 raise NotFound(f"There is no upload {token}.")
-            for rides, part in ((beside, BESIDE), (made, MADE)):
-                there = select(t.ride.c.id).where(t.ride.c.id.in_(rides))
-                for ride_id in connection.execute(there).scalars().all():
+            for rides, part in ((related, RELATED), (made, MADE)):
+                existing = select(t.ride.c.id).where(t.ride.c.id.in_(rides))
+                for ride_id in connection.execute(existing).scalars().all():
                     join_source(connection, ride_id, key, part)
             links = select(t.ride_source.c.id).where(t.ride_source.c.upload_id == key).limit(1)
             stays = connection.execute(links).first() is not None or verdict.state == "queued"
@@ -257,16 +257,16 @@ class UploadStore:
     def get(self, token: str) -> Upload:
         """One upload by its id. Raises NotFound."""
 
-        found = self._found(select(t.upload).where(t.upload.c.token == token))
-        if not found:
+        rows = self._uploads_where(select(t.upload).where(t.upload.c.token == token))
+        if not rows:
             raise NotFound(f"There is no upload {token}.")
-        return found[0]
+        return rows[0]
 
     def parts(self, token: str) -> tuple[Upload, ...]:
         """The files within a container, in its order."""
-        whole = select(t.upload.c.id).where(t.upload.c.token == token).scalar_subquery()
-        return self._found(
-            select(t.upload).where(t.upload.c.part_of == whole).order_by(t.upload.c.id)
+        container = select(t.upload.c.id).where(t.upload.c.token == token).scalar_subquery()
+        return self._uploads_where(
+            select(t.upload).where(t.upload.c.part_of == container).order_by(t.upload.c.id)
         )
 
     def first_with(self, sha256: str) -> Upload | None:
@@ -278,13 +278,13 @@ class UploadStore:
             .order_by(t.upload.c.id)
             .limit(1)
         )
-        return next(iter(self._found(query)), None)
+        return next(iter(self._uploads_where(query)), None)
 
     def waiting(self) -> tuple[Upload, ...]:
         """Uploads that have arrived and whose contents nobody has looked at yet."""
         arrived = (t.upload.c.state == RECEIVING) & (t.upload.c.received == t.upload.c.length)
         mine = (t.upload.c.state == "queued") | arrived
-        return self._found(select(t.upload).where(mine).order_by(t.upload.c.id))
+        return self._uploads_where(select(t.upload).where(mine).order_by(t.upload.c.id))
 
     def asking(self, code: str, header_sha256: str) -> Sequence[str]:
         """Ids of the uploads rejected with `code` that wait for what is said of a header, the first
@@ -311,10 +311,10 @@ class UploadStore:
             if key is None:
                 raise NotFound(f"There is no upload {token}.")
             link = t.ride_source.c
-            query = select(link.ride_id).where(link.upload_id == key, link.part != BESIDE)
+            query = select(link.ride_id).where(link.upload_id == key, link.part != RELATED)
             rides = connection.execute(query.order_by(link.ride_id)).scalars().all()
             if rides:
-                raise Conflict(told_of_rides(token, rides), code="has_rides")
+                raise Conflict(rides_sentence(token, rides), code="has_rides")
             forget_upload(connection, key, now_us)
 
         self._database.write(work)
@@ -351,8 +351,8 @@ class UploadStore:
         """
         query = select(t.upload).order_by(t.upload.c.id.desc()).limit(limit)
         if part_of is not None:
-            whole = self._database.read(lambda c: upload_key(c, part_of))
-            query = query.where(t.upload.c.part_of == whole)
+            container = self._database.read(lambda c: upload_key(c, part_of))
+            query = query.where(t.upload.c.part_of == container)
         elif sha256 is None:
             query = query.where(t.upload.c.part_of.is_(None))
         if sha256 is not None:
@@ -363,15 +363,15 @@ class UploadStore:
             if key is None:
                 raise NotFound(f"There is no upload {before}.")
             query = query.where(t.upload.c.id < key)
-        return self._found(query)
+        return self._uploads_where(query)
 
     def unknown_spooled(self) -> Sequence[Path]:
         """Spooled files that no upload knows; empty ones, which a crash leaves, are removed."""
         query = select(t.upload.c.token).where(t.upload.c.object_key.is_(None))
-        known = set(self._database.read(lambda c: c.execute(query).scalars().all()))
+        tokens = set(self._database.read(lambda c: c.execute(query).scalars().all()))
         unknown = []
         for path in self._spool.iterdir():
-            if path.name in known or not TOKEN.fullmatch(path.name):
+            if path.name in tokens or not TOKEN.fullmatch(path.name):
                 continue
             if path.stat().st_size:
                 unknown.append(path)
@@ -379,7 +379,7 @@ class UploadStore:
                 path.unlink(missing_ok=True)
         return unknown
 
-    def _found(self, query: Select[Any]) -> tuple[Upload, ...]:
+    def _uploads_where(self, query: Select[Any]) -> tuple[Upload, ...]:
         return self._database.read(lambda c: uploads_of(c, c.execute(query).all()))
 
     def _path(self, token: str) -> Path:
@@ -391,7 +391,7 @@ class UploadStore:
         )
 
 
-def told_of_rides(token: str, rides: Sequence[int]) -> str:
+def rides_sentence(token: str, rides: Sequence[int]) -> str:
     """Why an upload stays, in words."""
     if len(rides) == 1:
         return (
@@ -403,7 +403,7 @@ def told_of_rides(token: str, rides: Sequence[int]) -> str:
 
 def uploads_of(connection: Connection, rows: Sequence[Row[Any]]) -> tuple[Upload, ...]:
     """Rows of the table as uploads, in their order; a few questions for many of them."""
-    found: list[Upload] = []
+    uploads: list[Upload] = []
     for start in range(0, len(rows), ROWS_AT_ONCE):
         some = rows[start : start + ROWS_AT_ONCE]
         rides, parts = rides_by(connection, some), parts_by(connection, [row.id for row in some])
@@ -412,8 +412,8 @@ def uploads_of(connection: Connection, rows: Sequence[Row[Any]]) -> tuple[Upload
         tokens: dict[int, str] = {row.id: row.token for row in connection.execute(query)}
         for row in some:
             mine = tuple(sorted(rides.get(row.id, ())))
-            found.append(upload_from_row(row, mine, tokens.get(row.part_of), parts.get(row.id)))
-    return tuple(found)
+            uploads.append(upload_from_row(row, mine, tokens.get(row.part_of), parts.get(row.id)))
+    return tuple(uploads)
 
 
 def rides_by(connection: Connection, rows: Sequence[Row[Any]]) -> dict[int, set[int]]:
@@ -422,25 +422,27 @@ def rides_by(connection: Connection, rows: Sequence[Row[Any]]) -> dict[int, set[
     link = t.ride_source.c
     made = select(link.upload_id, link.ride_id).where(link.upload_id.in_(keys), link.part == MADE)
     first = select(t.ride.c.upload_id, t.ride.c.id).where(t.ride.c.upload_id.in_(keys))
-    found: dict[int, set[int]] = {}
+    ride_ids: dict[int, set[int]] = {}
     for key, ride_id in connection.execute(union_all(made, first)):
-        found.setdefault(key, set()).add(ride_id)
+        ride_ids.setdefault(key, set()).add(ride_id)
     twins = {row.duplicate_of for row in rows} - {None}
     here = set(connection.execute(select(t.ride.c.id).where(t.ride.c.id.in_(twins))).scalars())
     for row in rows:
         if row.duplicate_of in here:
-            found.setdefault(row.id, set()).add(row.duplicate_of)
-    return found
+            ride_ids.setdefault(row.id, set()).add(row.duplicate_of)
+    return ride_ids
 
 
 def parts_by(connection: Connection, keys: Sequence[int]) -> dict[int, UploadParts]:
     """What became of the files within those uploads that have some, by the upload's row id."""
     here = t.upload.c.code.in_(("duplicate", "filled"))
-    whole, state = t.upload.c.part_of, t.upload.c.state
-    query = select(whole, state, here, func.count()).where(whole.in_(keys))
+    container, state = t.upload.c.part_of, t.upload.c.state
+    query = select(container, state, here, func.count()).where(container.in_(keys))
     counted: dict[int, dict[str, int]] = {}
-    for key, told, is_here, count in connection.execute(query.group_by(whole, state, here)):
-        judged = told if told in ("complete", "partial", REJECTED) else "waiting"
+    for key, state_now, is_here, count in connection.execute(
+        query.group_by(container, state, here)
+    ):
+        judged = state_now if state_now in ("complete", "partial", REJECTED) else "waiting"
         name = "here" if is_here else judged
         mine = counted.setdefault(key, {})
         mine[name] = mine.get(name, 0) + count

@@ -28,7 +28,7 @@ OTHER_FIRMWARE = "other_firmware"
 class LimitProofs(Protocol):
     """Where limit proofs are stored; tuning.records has one."""
 
-    def keep(self, made: LimitProof) -> int:
+    def save(self, made: LimitProof) -> int:
         """Since when it is kept, Unix microseconds. Raises StoreError."""
         ...
 
@@ -48,8 +48,8 @@ class ProofSubject:
     parameters: Mapping[str, Any] = field(default_factory=dict)
 
 
-class StoredLimitProofs:
-    """Makes limit proofs and stores them. For any thread. firmware_version: of the C in here."""
+class LimitProofMaker:
+    """Makes proofs and keeps them. For any thread. firmware_version: of the C in here."""
 
     def __init__(self, proofs: LimitProofs, firmware_version: str) -> None:
         self._proofs = proofs
@@ -58,13 +58,13 @@ class StoredLimitProofs:
     def of(self, config: Mapping[str, Any]) -> LimitProof:
         """Of a configuration by registry name. Raises InvalidRequest, StoreError."""
         made = law.prove_limits(config, self._firmware_version)
-        return replace(made, created_us=self._proofs.keep(made))
+        return replace(made, created_us=self._proofs.save(made))
 
 
 class ProvenRevisions:
     """A log of revisions that keeps a limit proof with each; otherwise as the log it stands for."""
 
-    def __init__(self, revisions: RevisionLog, proofs: StoredLimitProofs) -> None:
+    def __init__(self, revisions: RevisionLog, proofs: LimitProofMaker) -> None:
         self._revisions = revisions
         self._proofs = proofs
         self.list = revisions.list
@@ -87,47 +87,47 @@ class ProveLimits:
     """Limit proofs of what there is and of what might be written. From any thread."""
 
     def __init__(
-        self, kept: StoredLimitProofs, devices: Devices, tuning: Tuning, library: Library
+        self, proofs: LimitProofMaker, devices: Devices, tuning: Tuning, library: Library
     ) -> None:
-        self._kept = kept
+        self._proofs = proofs
         self._devices = devices
         self._tuning = tuning
         self._library = library
 
-    def __call__(self, asked: ProofSubject) -> LimitProof:
+    def __call__(self, subject: ProofSubject) -> LimitProof:
         """Raises InvalidRequest for what no unit takes, NotFound, NoAnswer, CapabilityMissing."""
-        if asked.device_id is not None and asked.library is not None:
+        if subject.device_id is not None and subject.library is not None:
             message = "Name a unit or an entry of the library, not both."
             raise InvalidRequest(message, fields=[FieldError("library", "not_one", message)])
-        base = self._base(asked)
-        config = {**changed_config(base, **asked.changes), **asked.parameters}
-        unknown = [name for name in asked.parameters if name not in base]
+        base = self._base(subject)
+        config = {**changed_config(base, **subject.changes), **subject.parameters}
+        unknown = [name for name in subject.parameters if name not in base]
         if unknown:
             faults = [FieldError(name, "unknown", f"There is no {name}.") for name in unknown]
             raise InvalidRequest(" ".join(fault.message for fault in faults), fields=faults)
-        made = self._kept.of(config)
-        if asked.device_id is None:
+        made = self._proofs.of(config)
+        if subject.device_id is None:
             return made
-        identity = self._devices.get(asked.device_id).identity
+        identity = self._devices.get(subject.device_id).identity
         runs = identity.firmware_version if identity else None
         return made if runs == made.firmware_version else replace(made, unproven=OTHER_FIRMWARE)
 
-    def _base(self, asked: ProofSubject) -> dict[str, Any]:
+    def _base(self, subject: ProofSubject) -> dict[str, Any]:
         defaults = law.law_defaults()
-        if asked.library is not None:
-            document = self._library.entry(asked.library).document
+        if subject.library is not None:
+            document = self._library.entry(subject.library).document
             values = {name: entry["value"] for name, entry in document["parameters"].items()}
             return {**defaults, **values}
-        if asked.device_id is None:
+        if subject.device_id is None:
             return defaults
-        if asked.revision is None:
-            unit = self._devices.writable(asked.device_id)
+        if subject.revision is None:
+            unit = self._devices.writable(subject.device_id)
             unit.require(Capability.READ_CONFIG, Capability.FUZZY_TABLE)
             return {**defaults, **unit.read_config().parameters}
-        for revision in self._revisions(asked.device_id):
-            if revision.seq == asked.revision and has_law(revision.parameters):
+        for revision in self._revisions(subject.device_id):
+            if revision.seq == subject.revision and has_law(revision.parameters):
                 return {**defaults, **revision.parameters}
-        raise NotFound(f"{asked.device_id} has no revision {asked.revision} with a rule table.")
+        raise NotFound(f"{subject.device_id} has no revision {subject.revision} with a rule table.")
 
     def _revisions(self, device_id: str) -> Sequence[Revision]:
         return self._tuning.revisions(device_id)

@@ -59,8 +59,8 @@ class LiveTuning:
         faults = unit.parameters.faults_of(intended)
         if faults:
             raise LimitViolation(" ".join(fault.message for fault in faults), fields=faults)
-        whole = unit.parameters.rounded(intended)
-        values = {name: whole[name] for name in changes}
+        rounded = unit.parameters.rounded(intended)
+        values = {name: rounded[name] for name in changes}
         try:
             with telling("unknown"):
                 state = unit.set_live(values, ttl_s)

@@ -34,14 +34,14 @@ class ConfigPart:
     """One part: parameters -> JSON, JSON -> changes (raises InvalidRequest), and the names.
 
     fields: parameter -> its place in the JSON, so that a fault marks the right field of a form.
-    kept: parameters the part shows and may not change, because another part owns them.
+    compared: parameters the part shows and may not change, because another part owns them.
     unknown_while_lost: what nobody knows while defaults stand in place of what was lost.
     """
 
     read: Callable[[Mapping[str, Value]], dict[str, Any]]
     changes: Callable[[Mapping[str, Any]], dict[str, Value]]
     fields: Mapping[str, str]
-    kept: tuple[str, ...] = ()
+    compared: tuple[str, ...] = ()
     unknown_while_lost: tuple[str, ...] = ()
 
     def renamed(self, fault: FieldError) -> FieldError:
@@ -55,20 +55,20 @@ class ConfigPart:
 
 def _by_name(
     names: tuple[str, ...],
-    told: Mapping[str, Callable[[Mapping[str, Value]], Any]] | None = None,
+    readers: Mapping[str, Callable[[Mapping[str, Value]], Any]] | None = None,
 ) -> ConfigPart:
     """A part whose JSON is the parameters themselves.
 
-    told: what follows from them, by name; it is told with them and not written.
+    readers: what follows from them, by name; it is told with them and not written.
     """
-    told = told or {}
+    readers = readers or {}
 
     def read(parameters: Mapping[str, Value]) -> dict[str, Any]:
         shown = {name: parameters[name] for name in names}
-        return shown | {name: derive(parameters) for name, derive in told.items()}
+        return shown | {name: derive(parameters) for name, derive in readers.items()}
 
     def changes(value: Mapping[str, Any]) -> dict[str, Value]:
-        unknown = [name for name in value if name not in names and name not in told]
+        unknown = [name for name in value if name not in names and name not in readers]
         if unknown:
             raise InvalidRequest(
                 f"{', '.join(unknown)} does not belong here; there is {', '.join(names)}."
@@ -89,8 +89,8 @@ def _fuzzy_table(which: str) -> ConfigPart:
         return cast("dict[str, Value]", FuzzyTable.from_json(value).to_parameters(which))
 
     fields = {parameter: field + "{index}" for field, parameter in names.items()}
-    kept = () if which == "first" else tuple(names[field] for field in SHARED_FIELDS)
-    return ConfigPart(read, changes, fields, kept)
+    compared = () if which == "first" else tuple(names[field] for field in SHARED_FIELDS)
+    return ConfigPart(read, changes, fields, compared)
 
 
 def _effective_cutoff_kmh(parameters: Mapping[str, Value]) -> float | None:
@@ -112,8 +112,8 @@ def _assist_modes() -> ConfigPart:
 def _calibration(table: ParameterTable) -> ConfigPart:
     """Sensor and record of its calibration; what the maker gave it is told and not written."""
     names = table.group("sensor") + table.group("calibration")
-    told = {name: itemgetter(name) for name in names if name in table.factory}
-    return _by_name(tuple(name for name in names if name not in told), told)
+    readers = {name: itemgetter(name) for name in names if name in table.factory}
+    return _by_name(tuple(name for name in names if name not in readers), readers)
 
 
 def _limits(table: ParameterTable) -> ConfigPart:

@@ -47,7 +47,7 @@ class Preview:
     def mode_curves(
         self, parameters: Mapping[str, Any], rider_torque_nm: float, speeds_kmh: Sequence[float]
     ) -> dict[str, Any]:
-        """What each mode gives for a steady push, as the API tells it.
+        """What each mode gives for a steady push, as in the API.
 
         parameters: by registry name; those that are missing have the law's defaults. Raises
         InvalidRequest.
@@ -77,19 +77,19 @@ class Preview:
         speeds_kmh: Sequence[float],
         torque_rates: Sequence[float],
     ) -> dict[str, Any]:
-        """What a mode gives over the grid of its table, as the API tells it.
+        """What a mode gives over the grid of its table, as in the API.
 
         parameters: by registry name; those that are missing have the law's defaults. Raises
         InvalidRequest.
         """
         config = {**law.law_defaults(), **parameters}
-        found = law.torque_surface(config, mode, rider_torque_nm, speeds_kmh, torque_rates)
+        surface = law.torque_surface(config, mode, rider_torque_nm, speeds_kmh, torque_rates)
         return {
             "speeds_kmh": list(speeds_kmh),
             "torque_rates": list(torque_rates),
-            "asked_nm": found.asked_nm.tolist(),
-            "given_nm": found.given_nm.tolist(),
-            "limit_flags": found.limit_flags.tolist(),
+            "asked_nm": surface.asked_nm.tolist(),
+            "given_nm": surface.given_nm.tolist(),
+            "limit_flags": surface.limit_flags.tolist(),
             "cadence_rpm": law.CADENCE_RPM,
             "crank_rad_per_s": law.CADENCE_RPM * RADIANS_PER_S_PER_RPM,
             "engine": law.ENGINE,

@@ -15,7 +15,7 @@ from backend.core.author import proof_of
 from backend.core.canonical_json import sha256_of
 from backend.core.revision import Revision
 from backend.law.limit_proof import LimitProof
-from backend.store.bikes import known_unit
+from backend.store.bikes import bike_of_unit
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database
 
@@ -60,7 +60,7 @@ class RevisionStore:
         }
 
         def work(connection: Connection) -> Revision:
-            known_unit(connection, unit_key)
+            bike_of_unit(connection, unit_key)
             last = connection.execute(newest_of(unit_key, 1)).first()
             if last is not None and only_if_changed and last.crc32 == crc32:
                 return revision_from(last)
@@ -109,7 +109,7 @@ class LimitProofStore:
     def __init__(self, database: Database) -> None:
         self._database = database
 
-    def keep(self, made: LimitProof) -> int:
+    def save(self, made: LimitProof) -> int:
         """Keep what was just made unless it is known; since when it is known, Unix microseconds.
 
         One that was worked out otherwise takes the place of what was there. Raises StoreError.
@@ -120,27 +120,27 @@ class LimitProofStore:
             & (row.method == made.method)
             & (row.firmware_version == made.firmware_version)
         )
-        known = select(row.sha256, row.created_us).where(mine)
+        query = select(row.sha256, row.created_us).where(mine)
 
-        found = self._database.read(lambda connection: connection.execute(known).first())
-        if found is not None and found.sha256 == made.sha256:
-            return int(found.created_us)
+        existing = self._database.read(lambda connection: connection.execute(query).first())
+        if existing is not None and existing.sha256 == made.sha256:
+            return int(existing.created_us)
 
         def work(connection: Connection) -> int:
-            found = connection.execute(known).first()
-            if found is not None and found.sha256 == made.sha256:
-                return int(found.created_us)
+            existing = connection.execute(query).first()
+            if existing is not None and existing.sha256 == made.sha256:
+                return int(existing.created_us)
             now_us = time.time_ns() // 1000
-            said = {"sha256": made.sha256, "body": made.body(), "created_us": now_us}
-            if found is not None:
-                connection.execute(update(t.limit_proof).where(mine).values(**said))
+            values = {"sha256": made.sha256, "body": made.body(), "created_us": now_us}
+            if existing is not None:
+                connection.execute(update(t.limit_proof).where(mine).values(**values))
                 return now_us
             connection.execute(
                 insert(t.limit_proof).values(
                     config_sha256=made.config_sha256,
                     method=made.method,
                     firmware_version=made.firmware_version,
-                    **said,
+                    **values,
                 )
             )
             return now_us

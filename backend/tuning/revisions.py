@@ -14,9 +14,9 @@ from backend.tuning.types import Change
 LOG = logging.getLogger(__name__)
 
 FOUND_REASON = "Found in the unit before a change."
-GIVEN_UP_REASON = "Returned to by the unit itself: the trial before was not confirmed."
+ROLLED_BACK_REASON = "Returned to by the unit itself: the trial before was not confirmed."
 # States of a revision: read back and for good, or read back and on trial.
-KEPT = "verified"
+VERIFIED = "verified"
 TRIED = "provisional"
 
 
@@ -42,7 +42,7 @@ class RevisionBook:
         """Every configuration of a unit, newest first."""
         return self._revisions.list(unit)
 
-    def known(self, unit: str, crc32: int) -> Revision | None:
+    def newest_if(self, unit: str, crc32: int) -> Revision | None:
         """The newest configuration of a unit, if it is the one with this checksum."""
         newest = self._newest(unit)
         return newest if newest is not None and newest.crc32 == crc32 else None
@@ -56,40 +56,40 @@ class RevisionBook:
         """This change may have been made and is not in the log: whoever looks next finds out."""
         self._open[unit] = meant
 
-    def back_up(self, unit: str, found: ConfigImage) -> None:
+    def back_up(self, unit: str, config: ConfigImage) -> None:
         """Keep what the unit has if the log does not know it. Raises StoreError."""
         open_change = self._open.get(unit)
         newest = self._newest(unit)
-        if newest is None or newest.crc32 != found.crc32:
-            given_up = newest is not None and newest.state == TRIED
-            reason = GIVEN_UP_REASON if given_up else FOUND_REASON
-            meant = Meant(found.crc32, (), reason, author="", state=KEPT)
-            if open_change is not None and open_change.crc32 == found.crc32:
+        if newest is None or newest.crc32 != config.crc32:
+            rolled_back = newest is not None and newest.state == TRIED
+            reason = ROLLED_BACK_REASON if rolled_back else FOUND_REASON
+            meant = Meant(config.crc32, (), reason, author="", state=VERIFIED)
+            if open_change is not None and open_change.crc32 == config.crc32:
                 # The change was made after all: the log has it with its author's own reason.
                 meant = open_change
-            self._append(unit, found, meant, only_if_changed=True)
+            self._append(unit, config, meant, only_if_changed=True)
         self._open.pop(unit, None)
 
-    def note(self, unit: str, found: ConfigImage, meant: Meant) -> None:
+    def note(self, unit: str, config: ConfigImage, meant: Meant) -> None:
         """Add a change that is proven. Where a full disk does not take it, it stays open, and is
         added, with its author and reason, before anything else is written to the unit."""
         try:
-            self._append(unit, found, meant)
+            self._append(unit, config, meant)
         except StoreError as error:
             self.leave_open(unit, meant)
             LOG.error("%s: a proven change could not be noted yet: %s", unit, error.message)
 
     def _append(
-        self, unit: str, found: ConfigImage, meant: Meant, only_if_changed: bool = False
+        self, unit: str, config: ConfigImage, meant: Meant, only_if_changed: bool = False
     ) -> None:
         self._revisions.append(
             unit,
-            found.parameters,
+            config.parameters,
             [asdict(change) for change in meant.changed],
             meant.reason,
             meant.author,
-            found.generation,
-            found.crc32,
+            config.generation,
+            config.crc32,
             meant.state,
             only_if_changed,
         )

@@ -20,7 +20,7 @@ from backend.device.configuration import NO_TRIAL, ConfigImage, ParameterTable, 
 from backend.device.unit import Unit
 from backend.errors import Conflict, FieldError, InvalidRequest, LimitViolation, NoAnswer, NotFound
 from backend.tuning.parts import PARTS, ConfigPart
-from backend.tuning.revisions import KEPT, TRIED, Meant, RevisionBook
+from backend.tuning.revisions import TRIED, VERIFIED, Meant, RevisionBook
 from backend.tuning.types import (
     Change,
     ConfigChange,
@@ -35,7 +35,7 @@ from backend.units.outcome import find_outcome, telling
 from backend.units.service import Devices
 
 RETURNED_REASON = "Returned to: the trial before was given up."
-KEPT_REASON = "Kept after its trial."
+CONFIRMED_REASON = "Kept after its trial."
 CONFIRM_S_MAX = 255
 ACTIVE = "active"
 
@@ -89,7 +89,7 @@ class Tuning:
 
     def revisions(self, device_id: str) -> Sequence[Revision]:
         """Every configuration the unit is known to have had, newest first."""
-        return self._book.list(self._devices.known_key(device_id))
+        return self._book.list(self._devices.last_known_key(device_id))
 
     def last_known(self, device_id: str) -> LastKnown:
         """What the unit was last known to be set to, whether it is connected or not.
@@ -99,16 +99,16 @@ class Tuning:
         which unit it is.
         """
         device = self._devices.get(device_id)
-        kept = next((one for one in self.revisions(device_id) if one.state != TRIED), None)
-        if kept is None:
+        newest = next((one for one in self.revisions(device_id) if one.state != TRIED), None)
+        if newest is None:
             raise NotFound(f"No configuration of the unit at {device.url} is kept.", "never_read")
         return LastKnown(
-            kept.unit_key,
+            newest.unit_key,
             device.last_seen_at,
-            kept.created_at,
-            kept.generation,
-            kept.crc32,
-            tuple(_views(self._devices.unit(device_id).parameters, kept.parameters)),
+            newest.created_at,
+            newest.generation,
+            newest.crc32,
+            tuple(_views(self._devices.unit(device_id).parameters, newest.parameters)),
         )
 
     # ------------------------------------------------------------------ writing
@@ -142,7 +142,7 @@ class Tuning:
                 confirm_s,
                 author,
                 token,
-                part.kept,
+                part.compared,
                 own,
                 own,
             )
@@ -159,7 +159,7 @@ class Tuning:
         confirm_s: int = 0,
         author: str = "",
         token: str | None = None,
-        kept: Collection[str] = (),
+        compared: Collection[str] = (),
         unit_key: str | None = None,
         read_from: str | None = None,
     ) -> ConfigChange:
@@ -167,7 +167,7 @@ class Tuning:
 
         if_match: ETag of the configuration the change was made for. confirm_s: 0 for good; else the
         change is on trial, and the unit returns to what it had unless `confirm_config` comes within
-        so many seconds. token: the maker's answer to TokenNeeded. kept: names among `changes`
+        so many seconds. token: the maker's answer to TokenNeeded. compared: names among `changes`
         that are there to be compared: another value than the unit's is refused. unit_key: of the
         unit the change is for; None for the one that is there. read_from: the key of the unit the
         values were read from, None where they were not, or nobody says: what stays with a unit is
@@ -191,28 +191,30 @@ class Tuning:
             check_base(key, base, if_match)
             intended = _intended(unit.parameters, base, changes)
             changed = differences(base.parameters, intended)
-            _check_kept(changed, kept)
+            _check_compared(changed, compared)
             if read_from != key:
                 _check_of_this_unit(unit.parameters, changed, read_from)
             self._book.back_up(key, base)
-            found = base
+            written = base
             writes = bool(changed) or unit.settings_are_lost()
             if writes:
                 crc32 = unit.parameters.crc32_of(intended)
-                meant = Meant(crc32, changed, reason, author, TRIED if confirm_s else KEPT)
+                meant = Meant(crc32, changed, reason, author, TRIED if confirm_s else VERIFIED)
                 try:
-                    found = self._commit(device_id, key, base, intended, changed, confirm_s, permit)
+                    written = self._commit(
+                        device_id, key, base, intended, changed, confirm_s, permit
+                    )
                 except NoAnswer as error:
                     if error.outcome == "unknown":
                         self._book.leave_open(key, meant)
                     raise
-                self._book.note(key, found, meant)
+                self._book.note(key, written, meant)
         if writes and confirm_s:
             with telling("changed"):
-                expires_at = self._expires_at(unit, found)
-            return ConfigChange.of(key, found, "provisional", changed, expires_at)
+                expires_at = self._expires_at(unit, written)
+            return ConfigChange.of(key, written, "provisional", changed, expires_at)
         waits = writes and Capability.RESTART_TO_APPLY in unit.capabilities
-        return ConfigChange.of(key, found, "needs_restart" if waits else "committed", changed)
+        return ConfigChange.of(key, written, "needs_restart" if waits else "committed", changed)
 
     def confirm_config(self, device_id: str, author: str = "") -> ConfigChange:
         """Keep the change on trial, after reading it back and comparing it field by field.
@@ -226,7 +228,7 @@ class Tuning:
             trial = unit.trial()
             if not trial.on_trial:
                 raise Conflict(NO_TRIAL, "no_trial")
-            meant = self._book.known(key, trial.crc32)
+            meant = self._book.newest_if(key, trial.crc32)
             if meant is None:
                 raise Conflict(
                     "What is on trial was not written by this Spindle, so it does not know what "
@@ -234,15 +236,15 @@ class Tuning:
                     "unknown_trial",
                 )
             tried = ConfigImage(trial.generation, trial.crc32, dict(meant.parameters))
-            found = self._certainly(
+            confirmed = self._certainly(
                 device_id,
                 key,
                 lambda unit: unit.confirm_config(tried.parameters),
                 lambda unit: unit.outcome_of_confirm(tried),
             )
-            reason = f"Kept after its trial: {meant.reason}" if meant.reason else KEPT_REASON
-            self._book.note(key, found, Meant(found.crc32, (), reason, author, KEPT))
-        return ConfigChange.of(key, found)
+            reason = f"Kept after its trial: {meant.reason}" if meant.reason else CONFIRMED_REASON
+            self._book.note(key, confirmed, Meant(confirmed.crc32, (), reason, author, VERIFIED))
+        return ConfigChange.of(key, confirmed)
 
     def rollback_config(self, device_id: str, author: str = "") -> ConfigChange:
         """Give up the change on trial; what the unit has then is read back.
@@ -254,16 +256,16 @@ class Tuning:
         unit.require(Capability.UNIT_TRIAL)
         with self._turn(device_id), telling("unchanged"):
             tried = unit.read_config()
-            found = self._certainly(
+            rolled_back = self._certainly(
                 device_id,
                 key,
                 lambda unit: unit.rollback_config(),
                 lambda unit: unit.outcome_of_rollback(tried),
             )
-            changed = differences(tried.parameters, found.parameters)
-            meant = Meant(found.crc32, changed, RETURNED_REASON, author, KEPT)
-            self._book.note(key, found, meant)
-        return ConfigChange.of(key, found, changed=changed)
+            changed = differences(tried.parameters, rolled_back.parameters)
+            meant = Meant(rolled_back.crc32, changed, RETURNED_REASON, author, VERIFIED)
+            self._book.note(key, rolled_back, meant)
+        return ConfigChange.of(key, rolled_back, changed=changed)
 
     def note_trial_end(self, device_id: str) -> None:
         """Note what the unit has, if the newest it is known to have had was on trial and is over.
@@ -280,9 +282,9 @@ class Tuning:
 
     def _turn(self, device_id: str) -> threading.Lock:
         """The lock that makes changes of one device wait for each other."""
-        known_as = self._devices.get(device_id).id
+        device_key = self._devices.get(device_id).id
         with self._lock:
-            return self._writing[known_as]
+            return self._writing[device_key]
 
     def _commit(
         self,
@@ -307,16 +309,16 @@ class Tuning:
         device_id: str,
         key: str,
         change: Callable[[Unit], ConfigImage],
-        look: Callable[[Unit], ConfigImage],
+        read: Callable[[Unit], ConfigImage],
     ) -> ConfigImage:
-        """Make a change; where nobody said what became of it, find out by `look`."""
+        """Make a change; where nobody said what became of it, find out by `read`."""
         try:
             with telling("unknown"):
                 return change(self._devices.own(device_id, key)[1])
         except NoAnswer as error:
             if error.outcome != "unknown":
                 raise
-            return find_outcome(self._devices, device_id, key, look, error)
+            return find_outcome(self._devices, device_id, key, read, error)
 
     def _expires_at(self, unit: Unit, written: ConfigImage) -> datetime:
         """When the unit gives up what was just written on trial, by its own count."""
@@ -331,16 +333,16 @@ class Tuning:
 
 def _views(table: ParameterTable, values: Mapping[str, Value]) -> list[ParameterView]:
     """Every parameter that has a value."""
-    known = {row.name: values[row.name] for row in table.rows if row.name in values}
-    whole = len(known) == len(table.rows)
+    values_by_name = {row.name: values[row.name] for row in table.rows if row.name in values}
+    is_complete = len(values_by_name) == len(table.rows)
     return [
         ParameterView(
             **asdict(row),
-            value=known[row.name],
-            free=table.free_of(row.name, known) if whole else None,
+            value=values_by_name[row.name],
+            free=table.free_of(row.name, values_by_name) if is_complete else None,
         )
         for row in table.rows
-        if row.name in known
+        if row.name in values_by_name
     ]
 
 
@@ -351,14 +353,14 @@ def _part(unit: Unit, name: str) -> ConfigPart:
     return kind.of(unit.parameters)
 
 
-def _check_kept(changed: Sequence[Change], kept: Collection[str]) -> None:
+def _check_compared(changed: Sequence[Change], compared: Collection[str]) -> None:
     """Raise LimitViolation naming what was to stay as it is."""
     faults = [
         FieldError(
             change.name, "shared", "Both tables share these points; change them in the first."
         )
         for change in changed
-        if change.name in kept
+        if change.name in compared
     ]
     if faults:
         raise LimitViolation(faults[0].message, "shared_points", faults)

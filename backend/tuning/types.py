@@ -79,22 +79,22 @@ class ConfigChange:
     def of(
         cls,
         unit_key: str,
-        found: ConfigImage,
+        config: ConfigImage,
         state: str = "committed",
         changed: tuple[Change, ...] = (),
         expires_at: datetime | None = None,
     ) -> ConfigChange:
-        """A change after which the unit has `found`."""
+        """A change after which the unit has `config`."""
         verified = state != "needs_restart"
         return cls(
             unit_key,
-            found.generation,
-            found.crc32,
+            config.generation,
+            config.crc32,
             state,
             verified,
             changed,
             expires_at,
-            found.parameters,
+            config.parameters,
         )
 
 
@@ -125,8 +125,8 @@ def check_base(unit_key: str, config: ConfigImage, if_match: str | None) -> None
     if_match: an ETag or several as HTTP writes them, `*` or None for any. One that is marked weak
     never matches, as for every method that changes something (RFC 9110, 13.1.1).
     """
-    found = etag(unit_key, config.generation, config.crc32)
-    if is_match(found, if_match):
+    current = etag(unit_key, config.generation, config.crc32)
+    if is_match(current, if_match):
         return
     units = {tag.strip('"').split("-")[2] for tag in TAGS_OF_UNITS.findall(if_match or "")}
     if units and unit_tag(unit_key) not in units:
@@ -135,19 +135,19 @@ def check_base(unit_key: str, config: ConfigImage, if_match: str | None) -> None
             "now: nothing was changed. Connect the unit it was made for, or look at this one first."
         )
     raise ConfigConflict(
-        f"The change was made for configuration {if_match}, but the unit has {found} now: "
+        f"The change was made for configuration {if_match}, but the unit has {current} now: "
         "somebody else changed it. Read it again, look at the difference, and write once more."
     )
 
 
-def is_match(found: str, if_match: str | None) -> bool:
+def is_match(current: str, if_match: str | None) -> bool:
     """Whether a request that is meant for `if_match` is meant for what is there.
 
-    found: its ETag. if_match: as of `check_base`.
+    current: its ETag. if_match: as of `check_base`.
     """
     if if_match is None or if_match.strip() == "*":
         return True
-    return found in ENTITY_TAGS.findall(if_match) or if_match.strip() == found.strip('"')
+    return current in ENTITY_TAGS.findall(if_match) or if_match.strip() == current.strip('"')
 
 
 def differences(old: Mapping[str, Value], new: Mapping[str, Value]) -> tuple[Change, ...]:

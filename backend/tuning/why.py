@@ -34,7 +34,7 @@ class WhySteady:
         self._unit_of = unit_of
 
     def __call__(self, state: Json, changes: Json, device_id: str | None = None) -> dict[str, Any]:
-        """The answer as the API tells it.
+        """The answer as in the API.
 
         state: speed_kmh, torque_rate, rider_torque_nm, cadence_rpm, held_s; mode, or None for the
         one at start; and other inputs of the law by their names, None where not known. changes: as
@@ -47,23 +47,23 @@ class WhySteady:
             unit.require(Capability.READ_CONFIG, Capability.FUZZY_TABLE)
             base, source = unit.read_config().parameters, "unit"
         config = {**law_defaults(), **changed_config(base, **changes)}
-        known = {name: value for name, value in state.items() if value is not None}
-        torque_rate, held_s = known.pop("torque_rate"), known.pop("held_s")
-        known.setdefault("mode", config["assist_mode_at_start"])
-        found = law.why_steady(config, known, torque_rate, held_s)
+        readings_given = {name: value for name, value in state.items() if value is not None}
+        torque_rate, held_s = readings_given.pop("torque_rate"), readings_given.pop("held_s")
+        readings_given.setdefault("mode", config["assist_mode_at_start"])
+        result = law.why_steady(config, readings_given, torque_rate, held_s)
         moment = {"kind": "steady", "ride_id": None, "t_s": None, "held_s": held_s}
-        return told(found, config, known, moment, source)
+        return why_json(result, config, readings_given, moment, source)
 
 
-def told(
-    found: Why,
+def why_json(
+    why: Why,
     config: Config,
     readings: Mapping[str, npt.ArrayLike],
     moment: Json,
     config_source: str,
     recorded: Json | None = None,
 ) -> dict[str, Any]:
-    """A control step as the API tells it: why, with which settings and on which readings.
+    """A control step as in the API: why, with which settings and on which readings.
 
     readings: the law's inputs, (n,) each or one value, of which the last is the step's.
     """
@@ -71,13 +71,13 @@ def told(
     mode = int(last.pop("mode") or 0)
     which = tuple(PARAMETERS_OF)[int(config["mode_tables"][mode])]
     return {
-        **asdict(found),
+        **asdict(why),
         "moment": moment,
         "config_source": config_source,
         "engine": law.ENGINE,
         "mode": mode,
         "mode_name": config["mode_names"][mode],
-        "table": stored_json(config, which) if found.law == "fuzzy" else None,
+        "table": stored_json(config, which) if why.law == "fuzzy" else None,
         "speed_kmh": last.get("speed_kmh"),
         "cadence_rpm": last.get("cadence_rpm"),
         "readings": last,

@@ -29,7 +29,7 @@ NO_SCENARIO = "none"
 TERMINALS = ("/dev/tty", "/dev/pts/", "/dev/cu.", "/dev/rfcomm", "/dev/ircomm", "/dev/usb/tts/")
 
 
-def check_asked(url: str) -> None:
+def check_url(url: str) -> None:
     """Raises InvalidRequest for a url that names a file or device of the server's machine."""
     kind = kind_of(url)
     settings = parse_qs(url.partition("?")[2], keep_blank_values=True)
@@ -38,12 +38,12 @@ def check_asked(url: str) -> None:
             raise _refused(
                 f"{name} names a file of this machine: only `spindle serve --device` may."
             )
-        known = [NO_SCENARIO, *(name for name, _ in live_scenarios())]
+        scenarios = [NO_SCENARIO, *(name for name, _ in live_scenarios())]
         for scenario in settings.get("scenario", []):
-            if scenario not in known:
+            if scenario not in scenarios:
                 raise _refused(
-                    f"There is no scenario {scenario!r}; there are {', '.join(known)}. A file of "
-                    "your own is for `spindle serve --device`."
+                    f"There is no scenario {scenario!r}; there are {', '.join(scenarios)}. A file "
+                    "of your own is for `spindle serve --device`."
                 )
     elif kind == "serial":
         name = url.strip().partition("?")[0]
@@ -94,8 +94,8 @@ def id_of(url: str) -> str:
 def _owner(name: str) -> str | None:
     """The one url that this readable id belongs to."""
     for pattern, url in OWNERS:
-        found = re.fullmatch(pattern, name, re.ASCII)
-        if found is None:
+        match = re.fullmatch(pattern, name, re.ASCII)
+        if match is None:
             continue
-        return f"/dev/tty{found[1].upper()}{found[2]}" if url is None else found.expand(url)
+        return f"/dev/tty{match[1].upper()}{match[2]}" if url is None else match.expand(url)
     return None

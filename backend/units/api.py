@@ -8,7 +8,7 @@ from fastapi import APIRouter, Response, status
 
 from backend.device.live_values import Snapshot
 from backend.device.wear_counters import WearCounters
-from backend.units.addresses import check_asked
+from backend.units.addresses import check_url
 from backend.units.dashboard import Dashboard, Dashboards
 from backend.units.inspection import Inspection
 from backend.units.precondition import FOR_ONE_UNIT
@@ -53,7 +53,7 @@ def add_device(body: DeviceRequest, devices: AllDevices, response: Response) -> 
 
     The same url again is the same device, and may give its unit a name.
     """
-    check_asked(body.url)
+    check_url(body.url)
     device = devices.add(body.url, name=body.name)
     response.headers["location"] = f"/api/v1/devices/{device.id}"
     return device

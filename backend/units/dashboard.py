@@ -114,9 +114,9 @@ class DashboardAccount:
         self._missing_s += lost_rows * period_s
         speed_kmh = columns.get("speed_kmh")
         if speed_kmh is not None:
-            known = np.isfinite(speed_kmh)
-            self._missing_s += float(np.count_nonzero(~known)) * period_s
-            self._distance_m += float(speed_kmh[known].sum()) * MS_PER_KMH * period_s
+            valid = np.isfinite(speed_kmh)
+            self._missing_s += float(np.count_nonzero(~valid)) * period_s
+            self._distance_m += float(speed_kmh[valid].sum()) * MS_PER_KMH * period_s
         rows = max((len(column) for column in columns.values()), default=0)
         if rows == 0:
             return
@@ -168,10 +168,10 @@ class DashboardAccount:
 
     def _acceleration_ms2(self) -> float | None:
         """The slope of speed over the last second, by least squares."""
-        known = [(m.t_s, m.speed_ms) for m in self._recent if math.isfinite(m.speed_ms)]
-        if len(known) < 2 or known[-1][0] - known[0][0] < WINDOW_S / 2:
+        moments = [(m.t_s, m.speed_ms) for m in self._recent if math.isfinite(m.speed_ms)]
+        if len(moments) < 2 or moments[-1][0] - moments[0][0] < WINDOW_S / 2:
             return None
-        t_s, speed_ms = np.array(known).T
+        t_s, speed_ms = np.array(moments).T
         t_s = t_s - t_s.mean()
         return float((t_s * speed_ms).sum() / (t_s * t_s).sum())
 
@@ -204,12 +204,12 @@ def _power_w(columns: Mapping[str, Column], torque_nm: str, speed_rpm: str) -> f
 
 
 def _mean(values: list[float]) -> float | None:
-    known = [value for value in values if math.isfinite(value)]
-    return sum(known) / len(known) if known else None
+    numbers = [value for value in values if math.isfinite(value)]
+    return sum(numbers) / len(numbers) if numbers else None
 
 
 @dataclass
-class _Kept:
+class _Account:
     """One unit's account and the number of rows its subscription has brought."""
 
     account: DashboardAccount = field(default_factory=DashboardAccount)
@@ -221,7 +221,7 @@ class Dashboards:
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._kept: dict[str, _Kept] = {}
+        self._accounts: dict[str, _Account] = {}
 
     def follow(self, device_id: str, event: DeviceEvent) -> None:
         """Take what a unit sent; anything but rows is not for us."""
@@ -229,19 +229,19 @@ class Dashboards:
             return
         columns = _columns(event)
         with self._lock:
-            kept = self._kept.setdefault(device_id, _Kept())
-            if kept.account.t_us is not None and event.t0_us < kept.account.t_us:
-                kept = self._kept[device_id] = _Kept()
-            lost_rows = event.lost_rows_before if kept.epoch == event.epoch else 0
-            kept.epoch = event.epoch
-            kept.account.take(event.t0_us, event.period_us, columns, lost_rows)
+            account = self._accounts.setdefault(device_id, _Account())
+            if account.account.t_us is not None and event.t0_us < account.account.t_us:
+                account = self._accounts[device_id] = _Account()
+            lost_rows = event.lost_rows_before if account.epoch == event.epoch else 0
+            account.epoch = event.epoch
+            account.account.take(event.t0_us, event.period_us, columns, lost_rows)
 
     def get(self, device_id: str) -> Dashboard:
         """The values of a unit as of its last row. Raises NotFound before the first."""
         with self._lock:
-            if device_id not in self._kept:
+            if device_id not in self._accounts:
                 raise NotFound(f"{device_id} has sent no row yet, or there is no such unit.")
-            return self._kept[device_id].account.now()
+            return self._accounts[device_id].account.now()
 
 
 def _columns(block: StreamBlock) -> dict[str, Column]:

@@ -35,7 +35,7 @@ class Inspection:
         Of a unit that is not there, those that were active when it was.
         """
         unit = self._devices.unit(device_id)
-        return unit.faults() if unit.status().state is LinkState.READY else unit.faults_told()
+        return unit.faults() if unit.status().state is LinkState.READY else unit.faults_reported()
 
     def clear_faults(self, device_id: str) -> Sequence[Fault]:
         """Forget the faults that are over; those that are left.
@@ -49,12 +49,12 @@ class Inspection:
 
     def wear_counters(self, device_id: str) -> WearCounters:
         """What the unit knows of its own wear. Raises Conflict of one we do not understand."""
-        found = self._devices.writable(device_id).wear_counters()
-        if found is None:
+        counters = self._devices.writable(device_id).wear_counters()
+        if counters is None:
             raise CapabilityMissing(
                 "This unit does not count distance, hours and writes.", "upkeep"
             )
-        return found
+        return counters
 
     def simulation(self, device_id: str) -> dict[str, Any]:
         """Rider, road and clock of a simulated unit. Raises CapabilityMissing for a real one."""

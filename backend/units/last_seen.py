@@ -34,22 +34,22 @@ class SightingStore(Protocol):
 
 
 class LastSeen:
-    """Sightings by the url of the connection. For any thread; only `look` and `close` write."""
+    """Sightings by the url of the connection. For any thread; only `update` and `close` write."""
 
     def __init__(self, store: SightingStore) -> None:
         self._store = store
         self._lock = threading.Lock()
-        self._known = {sighting.url: sighting for sighting in store.sightings()}
-        self._written_us = {url: one.seen_us for url, one in self._known.items()}
+        self._sightings = {sighting.url: sighting for sighting in store.sightings()}
+        self._written_us = {url: one.seen_us for url, one in self._sightings.items()}
 
     def at(self, url: str) -> Sighting | None:
         """The last sighting over a connection; None where no unit was. Never waits."""
         with self._lock:
-            return self._known.get(url)
+            return self._sightings.get(url)
 
-    def look(self, devices: Sequence[Device], now_us: int) -> None:
+    def update(self, devices: Sequence[Device], now_us: int) -> None:
         """Note who is there now. Raises StoreError."""
-        due = [self._noted(device, now_us) for device in devices]
+        due = [self._sighting_of(device, now_us) for device in devices]
         self._write([sighting for sighting in due if sighting is not None])
 
     def follower(self, view_of: Callable[[str], Device]) -> Callable[[str, DeviceEvent], None]:
@@ -57,25 +57,25 @@ class LastSeen:
 
         def follow(device_id: str, event: DeviceEvent) -> None:
             if isinstance(event, StateChanged | Named):
-                self._noted(view_of(device_id), time.time_ns() // 1000)
+                self._sighting_of(view_of(device_id), time.time_ns() // 1000)
 
         return follow
 
     def close(self) -> None:
         """Write what is not written yet; a store that refuses it is told in the log."""
         with self._lock:
-            known = list(self._known.values())
+            sightings = list(self._sightings.values())
         try:
-            self._write([one for one in known if self._written_us.get(one.url) != one.seen_us])
+            self._write([one for one in sightings if self._written_us.get(one.url) != one.seen_us])
         except SpindleError as error:
             LOG.warning("When the units were last seen is not kept: %s", error.message)
 
-    def _noted(self, device: Device, now_us: int) -> Sighting | None:
+    def _sighting_of(self, device: Device, now_us: int) -> Sighting | None:
         """What of a device is to be written."""
         with self._lock:
-            last = self._known.get(device.url)
-            is_there = device.state in [state.value for state in CONNECTED]
-            if is_there and device.identity is not None and device.unit_key is not None:
+            last = self._sightings.get(device.url)
+            is_connected = device.state in [state.value for state in CONNECTED]
+            if is_connected and device.identity is not None and device.unit_key is not None:
                 last = Sighting(
                     device.url,
                     device.unit_key,
@@ -85,11 +85,11 @@ class LastSeen:
                     device.identity.model,
                     device.identity.firmware_version,
                 )
-                self._known[device.url] = last
+                self._sightings[device.url] = last
             if last is None:
                 return None
             age_s = (last.seen_us - self._written_us.get(device.url, 0)) / US_PER_S
-            return last if age_s > (WRITE_EVERY_S if is_there else 0.0) else None
+            return last if age_s > (WRITE_EVERY_S if is_connected else 0.0) else None
 
     def _write(self, sightings: Sequence[Sighting]) -> None:
         for sighting in sightings:

@@ -20,7 +20,7 @@ from backend.device.configuration import ConfigImage
 from backend.device.states import CONNECTED, DeviceEvent, LinkState, Named, StateChanged, UnitEvent
 from backend.errors import NoAnswer, NotFound, SpindleError
 from backend.law import law_defaults
-from backend.store import SeenUnit
+from backend.store import UnitSighting
 from backend.units.records import UnitStore
 from backend.units.service import Devices
 
@@ -118,7 +118,7 @@ class UnitMemory:
             with self._lock:
                 self._configs[device_id] = config
             if connected:
-                self._keep(device_id, config)
+                self._store_config(device_id, config)
         except (NotFound, NoAnswer) as error:
             # Gone meanwhile; it is read when it is here again.
             LOG.debug("%s: its configuration was not remembered: %s", device_id, error.message)
@@ -130,16 +130,16 @@ class UnitMemory:
         device = self._devices.get(device_id)
         if device.identity is None or device.unit_key is None:
             return
-        seen = SeenUnit(
+        unit = UnitSighting(
             device.unit_key,
             device.identity.serial_number,
             device.name,
             device.identity.model,
             device.identity.firmware_version,
         )
-        self._units.seen(seen)
+        self._units.note_unit(unit)
 
-    def _keep(self, device_id: str, config: ConfigImage) -> None:
+    def _store_config(self, device_id: str, config: ConfigImage) -> None:
         """Note the unit's configuration unless the newest in the log is the same."""
         key = self._devices.unit_key(device_id)
         newest = self._revisions.list(key, 1)

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TypeVar
 
-from backend.device.driver import NEVER_ASKED
+from backend.device.driver import NEVER_SENT
 from backend.device.unit import Unit
 from backend.errors import LinkError, NoAnswer, NotFound, OtherUnit, Outcome, RequestRefused
 from backend.units.service import Devices
@@ -27,7 +27,7 @@ def telling(outcome: Outcome) -> Iterator[None]:
         yield
     except NoAnswer as error:
         if error.outcome is None:
-            error.outcome = "unchanged" if error.code in NEVER_ASKED else outcome
+            error.outcome = "unchanged" if error.code in NEVER_SENT else outcome
         raise
 
 
@@ -35,13 +35,13 @@ def find_outcome(
     devices: Devices,
     device_id: str,
     unit_key: str,
-    look: Callable[[Unit], Result],
+    read: Callable[[Unit], Result],
     error: NoAnswer,
 ) -> Result:
     """Ask what became of a change, until the unit answers.
 
-    unit_key: of the unit that was to change: another one in its place knows nothing. look: raises
-    NoAnswer with an outcome where it found one out. Raises what `look` raises; `error`, as unknown,
+    unit_key: of the unit that was to change: another one in its place knows nothing. read: raises
+    NoAnswer with an outcome where it found one out. Raises what `read` raises; `error`, as unknown,
     when the unit does not come back.
     """
     until_s = time.monotonic() + OUTCOME_WAIT_S
@@ -55,7 +55,7 @@ def find_outcome(
         except NoAnswer:
             continue
         try:
-            return look(unit)
+            return read(unit)
         except OtherUnit:
             break
         except NoAnswer as silent:

@@ -6,7 +6,7 @@ import time
 
 from sqlalchemy import Connection, select, update
 
-from backend.store.bikes import SeenUnit, bikes_now, known_unit
+from backend.store.bikes import UnitSighting, bike_of_unit, bikes_now
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database
 from backend.units.types import Sighting
@@ -20,12 +20,12 @@ class UnitStore:
         # What those who must not wait are told: this server alone changes it.
         self._bikes = database.read(bikes_now)
 
-    def seen(self, unit: SeenUnit) -> None:
+    def note_unit(self, unit: UnitSighting) -> None:
         """Note that a unit is there now; a name once given stays. Raises StoreError."""
 
         def work(connection: Connection) -> int | None:
             now_us = time.time_ns() // 1000
-            bike_id = known_unit(connection, unit.key, unit, now_us)
+            bike_id = bike_of_unit(connection, unit.key, unit, now_us)
             values = {
                 "serial_number": unit.serial_number,
                 "model": unit.model,

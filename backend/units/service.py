@@ -240,7 +240,7 @@ class Devices:
             raise NoAnswer(device.unit.status().reason, "not_connected")
         return key
 
-    def known_key(self, device_id: str) -> str:
+    def last_known_key(self, device_id: str) -> str:
         """As `unit_key`, for whoever only reads what is kept: of a unit that has not yet said who
         it is, the one that was last seen over its connection. Raises NotFound, NoAnswer."""
         key = self.get(device_id).unit_key
@@ -344,8 +344,8 @@ class Devices:
 
     def _close(self, device: _Device) -> None:
         with self._lock:
-            known = self._devices.get(device.url) is device
-        if known:
+            is_listed = self._devices.get(device.url) is device
+        if is_listed:
             device.unit.driver.close()
             with self._lock:
                 self._devices.pop(device.url, None)
@@ -366,13 +366,15 @@ class Devices:
         status = device.unit.status()
         identity = status.identity
         key = device.unit_key_of(identity)
-        seen = self._last_seen(device.url)
-        if identity is None and seen is not None:
-            identity = Identity(seen.serial_number, seen.model or "", seen.firmware_version)
-            key = seen.unit_key
-        seen_at = seen.seen_at if seen else None
+        sighting = self._last_seen(device.url)
+        if identity is None and sighting is not None:
+            identity = Identity(
+                sighting.serial_number, sighting.model or "", sighting.firmware_version
+            )
+            key = sighting.unit_key
+        last_seen_at = sighting.seen_at if sighting else None
         if device.is_here:
-            seen_at = datetime.now(UTC)
+            last_seen_at = datetime.now(UTC)
         return Device(
             id=device.id or id_of(device.url),
             url=device.url,
@@ -386,10 +388,10 @@ class Devices:
             faults_active=status.faults_active,
             family=device.unit.family,
             capabilities=tuple(sorted(device.unit.capabilities)),
-            name=device.name or (seen.name if seen else None),
+            name=device.name or (sighting.name if sighting else None),
             unit_key=key,
             bike_id=self._bike_of(key) if key is not None else None,
-            last_seen_at=seen_at,
+            last_seen_at=last_seen_at,
         )
 
 

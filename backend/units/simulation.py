@@ -18,7 +18,7 @@ from backend.web.models import Answer
 RiderKind = Literal["off", "constant", "legs"]
 DynoConvention = Literal["physical", "thesis"]
 MotorModel = Literal["average", "foc"]
-LOOK_EVERY_S = 0.01
+POLL_S = 0.01
 # A unit that has not lived through a tenth of a second in this long never will.
 STUCK_S = 15.0
 
@@ -198,25 +198,25 @@ def advance(inspection: Inspection, device_id: str, seconds: float) -> dict[str,
     for their frame to be full. Raises Conflict for a real unit and for a clock that runs by itself,
     NoAnswer when time does not pass.
     """
-    seen = inspection.simulation(device_id)
-    if seen.get("clock") != "virtual":
+    state = inspection.simulation(device_id)
+    if state.get("clock") != "virtual":
         raise Conflict(
             f"The clock of {device_id} runs by itself; set `clock` of its simulation to "
             "`virtual`, or add the unit as `sim:NAME?clock=virtual`."
         )
-    seen = inspection.simulate(device_id, {"advance_s": seconds})
-    last_left_s, last_s = seen["advance_left_s"], time.monotonic()
-    while seen["advance_left_s"] > 0:
-        time.sleep(LOOK_EVERY_S)
+    state = inspection.simulate(device_id, {"advance_s": seconds})
+    last_left_s, last_s = state["advance_left_s"], time.monotonic()
+    while state["advance_left_s"] > 0:
+        time.sleep(POLL_S)
         # A unit that computes on a busy machine may answer late; STUCK_S ends the waiting.
         with suppress(NoAnswer):
-            seen = inspection.simulation(device_id)
+            state = inspection.simulation(device_id)
         now_s = time.monotonic()
-        if seen["advance_left_s"] != last_left_s:
-            last_left_s, last_s = seen["advance_left_s"], now_s
+        if state["advance_left_s"] != last_left_s:
+            last_left_s, last_s = state["advance_left_s"], now_s
         elif now_s - last_s > STUCK_S:
             raise NoAnswer(
                 f"{device_id}: {last_left_s:g} s of {seconds:g} s are still to pass, and none has "
                 f"for {STUCK_S:g} s. Look whether its process and its line are alive."
             )
-    return seen
+    return state

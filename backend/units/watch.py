@@ -171,7 +171,7 @@ class Feed:
                 self._begin(event.epoch, event.period_us, event.channels)
             elif isinstance(event, StateChanged):
                 self._state = StateNow(event.state.value, event.reason)
-                self._put(self._state)
+                self._deliver(self._state)
 
     def _take_rows(self, block: StreamBlock) -> None:
         """Picks the rows and sends them once 20 ms have gathered."""
@@ -196,7 +196,7 @@ class Feed:
         self._step = max(1, round(1e6 / period_us / self._rate_hz)) if self._rate_hz else 1
         chosen = tuple(offered[positions[name]] for name in names)
         self._stream = StreamNow(epoch, period_us * self._step, chosen)
-        self._put(self._stream)
+        self._deliver(self._stream)
 
     def _gather(self, block: StreamBlock, offset: int, rows: npt.NDArray[np.int16]) -> None:
         first_index = (block.first_index + offset) // self._step
@@ -217,9 +217,9 @@ class Feed:
         self._sequence += 1
         self._sent_wall_us = wall_us
         self._pending, self._pending_rows, self._pending_lost = [], 0, 0
-        self._put(rows)
+        self._deliver(rows)
 
-    def _put(self, item: LiveItem) -> None:
+    def _deliver(self, item: LiveItem) -> None:
         for viewer in self._viewers:
             viewer.put(item)
 

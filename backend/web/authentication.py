@@ -82,10 +82,10 @@ class AuthMiddleware:
         return spindle_problem(None, NotSignedIn(BAD_KEY if with_key else SIGN_IN_FIRST))
 
     def _caller(self, connection: HTTPConnection) -> Caller | None:
-        given = connection.headers.get("authorization", "")
-        if given[: len(BEARER)].lower() == BEARER:
+        header = connection.headers.get("authorization", "")
+        if header[: len(BEARER)].lower() == BEARER:
             # A wrong key is not made good by a cookie.
-            return self.authenticator.of_key(given[len(BEARER) :].strip())
+            return self.authenticator.of_key(header[len(BEARER) :].strip())
         ticket = QueryParams(connection.scope["query_string"]).get("ticket")
         if ticket is not None and connection.scope["type"] == "websocket":
             return self.authenticator.of_ticket(ticket)

@@ -17,7 +17,7 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 HEAD_S = 15.0
 # Between pieces of a body; a phone in a cellar may be slow, not silent for a minute.
 BODY_S = 60.0
-LOOK_EVERY_S = 5.0
+CHECK_EVERY_S = 5.0
 # Half of the file descriptors that a process has by default. A browser holds seven at most.
 CONNECTIONS_MAX = 512
 
@@ -27,17 +27,17 @@ class PatientProtocol(H11Protocol):
 
     head_s = HEAD_S
     body_s = BODY_S
-    look_every_s = LOOK_EVERY_S
+    check_every_s = CHECK_EVERY_S
     connections_max = CONNECTIONS_MAX
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
         super().__init__(*arguments, **named)
-        self._look_again: asyncio.TimerHandle | None = None
+        self._next_check: asyncio.TimerHandle | None = None
         # Since when the head of the next request is awaited, which request was the last, and when
         # something came.
         self.silent_since_s = self.loop.time()
         self._last: object = None
-        self.heard_s = self.silent_since_s
+        self.last_received_s = self.silent_since_s
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         """Take the connection; where there are too many, the one that waited longest goes.
@@ -45,26 +45,26 @@ class PatientProtocol(H11Protocol):
         Those that send no request go first, then those in the middle of one.
         """
         super().connection_made(transport)
-        self.silent_since_s = self.heard_s = self.loop.time()
+        self.silent_since_s = self.last_received_s = self.loop.time()
         if len(self.connections) > self.connections_max:
             ours = [one for one in self.connections if isinstance(one, PatientProtocol)]
             silent = [one for one in ours if one.is_silent and one is not self]
             sending = [one for one in ours if one.waits_for_body]
             longest = min(silent, key=lambda one: one.silent_since_s, default=None) or min(
-                sending, key=lambda one: one.heard_s, default=self
+                sending, key=lambda one: one.last_received_s, default=self
             )
             longest.transport.close()
-        self._look_again = self.loop.call_later(self.look_every_s, self._look)
+        self._next_check = self.loop.call_later(self.check_every_s, self._check)
 
     def data_received(self, data: bytes) -> None:
         """Note that the other end is alive."""
-        self.heard_s = self.loop.time()
+        self.last_received_s = self.loop.time()
         super().data_received(data)
 
     def connection_lost(self, exc: Exception | None) -> None:
         """Forget the timer."""
-        if self._look_again is not None:
-            self._look_again.cancel()
+        if self._next_check is not None:
+            self._next_check.cancel()
         super().connection_lost(exc)
 
     @property
@@ -77,7 +77,7 @@ class PatientProtocol(H11Protocol):
         """Whether a request has begun and the other end is to send the rest of it."""
         return self.conn.their_state is h11.SEND_BODY
 
-    def _look(self) -> None:
+    def _check(self) -> None:
         now_s = self.loop.time()
         if self.transport.is_closing() or self.transport.get_protocol() is not self:
             # Gone, or a WebSocket by now, which has pings of its own.
@@ -87,10 +87,10 @@ class PatientProtocol(H11Protocol):
             self.silent_since_s = now_s
         if self.flow.read_paused:
             # It is we who do not listen.
-            self.heard_s = now_s
+            self.last_received_s = now_s
         if now_s - self.silent_since_s >= self.head_s or (
-            self.waits_for_body and now_s - self.heard_s >= self.body_s
+            self.waits_for_body and now_s - self.last_received_s >= self.body_s
         ):
             self.transport.close()
             return
-        self._look_again = self.loop.call_later(self.look_every_s, self._look)
+        self._next_check = self.loop.call_later(self.check_every_s, self._check)

@@ -90,8 +90,8 @@ def problem_response(
 async def refuse(refusal: Response, scope: Scope, receive: Receive, send: Send) -> None:
     """Answers a request or a WebSocket's handshake; a server that cannot tell the second why only
     closes it."""
-    told = "websocket.http.response" in scope.get("extensions", {})
-    if scope["type"] == "websocket" and not told:
+    can_answer = "websocket.http.response" in scope.get("extensions", {})
+    if scope["type"] == "websocket" and not can_answer:
         await send({"type": "websocket.close", "code": 1008})
     else:
         await refusal(scope, receive, send)
@@ -182,7 +182,7 @@ def spindle_problem(_: Request | None, error: Exception) -> JSONResponse:
     if status >= HTTPStatus.INTERNAL_SERVER_ERROR:
         LOG.warning("%s: %s", type(error).__name__, error.message)
     fields = [FieldProblem(field=f.field, code=f.code, message=f.message) for f in error.fields]
-    asked = error.challenge if isinstance(error, errors.TokenNeeded) else None
+    challenge = error.challenge if isinstance(error, errors.TokenNeeded) else None
     outcome = error.outcome if isinstance(error, errors.NoAnswer) else None
     return problem_response(
         status,
@@ -190,7 +190,7 @@ def spindle_problem(_: Request | None, error: Exception) -> JSONResponse:
         error.message,
         fields[:FIELD_ERRORS_MAX],
         headers_of(error),
-        challenge=asked,
+        challenge=challenge,
         outcome=outcome,
     )
 
@@ -218,10 +218,10 @@ def validation_problem(_: Request, error: Exception) -> JSONResponse:
             if field in named
             else FieldProblem(field=field, code=item["type"], message=item["msg"])
         )
-    found = list(named.values())
-    fields = found[:FIELD_ERRORS_MAX]
+    faults = list(named.values())
+    fields = faults[:FIELD_ERRORS_MAX]
     detail = "; ".join(f"{field.field}: {field.message}" for field in fields[:3])
-    more = f" and {len(found) - 3} more" if len(found) > 3 else ""
+    more = f" and {len(faults) - 3} more" if len(faults) > 3 else ""
     return problem_response(422, "invalid", f"{detail}{more}", fields)
 
 

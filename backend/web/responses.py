@@ -34,10 +34,10 @@ def streamed_json(body: bytes | memoryview) -> Response:
     """JSON text as a response; a long one is sent piece by piece."""
     if len(body) <= PIECE_BYTES:
         return Response(bytes(body), media_type=MEDIA_TYPE)
-    return StreamingResponse(pieces(bytes(body)), media_type=MEDIA_TYPE)
+    return StreamingResponse(chunks(bytes(body)), media_type=MEDIA_TYPE)
 
 
-def pieces(body: bytes) -> Iterator[bytes]:
+def chunks(body: bytes) -> Iterator[bytes]:
     """The body in order."""
     for start in range(0, len(body), PIECE_BYTES):
         yield body[start : start + PIECE_BYTES]

@@ -30,7 +30,7 @@ def token_in(connection: HTTPConnection) -> str | None:
     return connection.cookies.get(name_of(connection))
 
 
-def put(connection: HTTPConnection, response: Response, token: str) -> None:
+def set_cookie(connection: HTTPConnection, response: Response, token: str) -> None:
     """Signs a browser in."""
     secure = is_encrypted(connection)
     response.set_cookie(

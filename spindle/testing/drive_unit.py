@@ -16,7 +16,7 @@ import numpy.typing as npt
 from backend.device.configuration import ConfigImage
 from backend.device.ebl.operations.config_transaction import read_config, write_config
 from backend.device.ebl.operations.fault_frames import clear_faults, fault_frames
-from backend.device.ebl.operations.live_values import ask_values
+from backend.device.ebl.operations.live_values import read_values
 from backend.device.ebl.session.operation import Operation
 from backend.device.ebl.session.session import Session
 from backend.device.ebl.session.stream_receiver import StreamPlan
@@ -136,7 +136,7 @@ class DriveUnit:
 
     def channels(self) -> dict[str, float | None]:
         """Every telemetry channel as the unit reports it now; missing is None."""
-        values: Snapshot = self.ask(ask_values())
+        values: Snapshot = self.ask(read_values())
         return values.channels
 
     def trace(self, *names: str) -> dict[str, npt.NDArray[np.float64]]:

@@ -16,13 +16,13 @@ import pytest
 from playwright.sync_api import Page, Route, expect
 
 from backend.calibration.bike.balance import Climb, balance
-from backend.calibration.bike.coast_down import Known, resistance
+from backend.calibration.bike.coast_down import ClimbInputs, resistance
 from tests.browser.desk import TWO_FRAMES, Desk, sideways
 from tests.browser.judged import JUDGE
 from tests.fakes.server import SpindleServer
 
 KEPT = "wheel_circumference_m"
-KNOWN = Known(mass_kg=100.0, mass_limit_kg=0.5, gravity_ms2=9.807, rise_limit_m=0.5)
+KNOWN = ClimbInputs(mass_kg=100.0, mass_limit_kg=0.5, gravity_ms2=9.807, rise_limit_m=0.5)
 
 
 def climbed(told_share: float) -> dict[str, Any]:

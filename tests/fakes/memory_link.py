@@ -17,7 +17,7 @@ class MemoryLink:
     def __init__(self, url: str = "memory", bits_per_second: float | None = None) -> None:
         self.url = url
         self.bits_per_second = bits_per_second
-        self.bits_per_second_wanted: int | None = None
+        self.bits_per_second_requested: int | None = None
         self.arrived = bytearray()  # what the host wrote
         self.closed = False
         self._coming = bytearray()

@@ -42,7 +42,7 @@ class UnitHere:
         self._pace = Pace(time.monotonic(), self._unit.speed_factor)
         self.url = url
         self.bits_per_second: float | None = None
-        self.bits_per_second_wanted: int | None = None
+        self.bits_per_second_requested: int | None = None
 
     def set_baudrate(self, bits_per_second: int) -> None:
         """Bytes take no time here."""

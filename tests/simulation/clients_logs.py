@@ -46,7 +46,7 @@ class Collecting:
             return
         log, receiver, truth = self._under_way
         key = (log.log_id, log.generation)
-        self._parts[key] = self._parts.get(key, b"") + b"".join(receiver.take_pieces())
+        self._parts[key] = self._parts.get(key, b"") + b"".join(receiver.take_segments())
         if receiver.failure is not None:
             self._world.tell("host", f"log {log.log_id}: broken off: {receiver.failure}")
             self._end()

@@ -91,7 +91,7 @@ def test_a_log_is_byte_exact_and_fills_the_line(
     receiver = begin(wire, log)
     wire.run_until(lambda: receiver.done)
 
-    data = b"".join(receiver.take_pieces())
+    data = b"".join(receiver.take_segments())
     assert data == truth()[: log.length]
     share = log.length / (wire.now_s - began_s) / wire.bytes_per_s
     assert share >= TARGETS[loss]
@@ -109,7 +109,7 @@ def test_a_fifth_of_all_frames_lost_makes_it_slow_and_not_wrong(seed: int) -> No
     wire.run_until(lambda: receiver.done or receiver.failure is not None)
 
     assert receiver.failure is None
-    assert b"".join(receiver.take_pieces()) == truth()[: log.length]
+    assert b"".join(receiver.take_segments()) == truth()[: log.length]
 
 
 def test_a_download_goes_on_where_it_was_cut_off() -> None:
@@ -119,7 +119,7 @@ def test_a_download_goes_on_where_it_was_cut_off() -> None:
     wire.run_until(lambda: receiver.received > log.length // 2)
     wire.plugged = False
     wire.run_until(lambda: receiver.failure is not None)
-    prefix = b"".join(receiver.take_pieces())
+    prefix = b"".join(receiver.take_segments())
     wire.plugged = True
     wire.run_until(lambda: wire.session.state is LinkState.READY)
     assert "stopped answering" in str(receiver.failure)
@@ -128,7 +128,7 @@ def test_a_download_goes_on_where_it_was_cut_off() -> None:
     again = begin(wire, log, len(prefix), session=2)
     wire.run_until(lambda: again.done)
 
-    assert prefix + b"".join(again.take_pieces()) == truth()[: log.length]
+    assert prefix + b"".join(again.take_segments()) == truth()[: log.length]
     assert again.frames * 512 <= log.length - len(prefix) + 32 * 512
 
 
@@ -142,7 +142,7 @@ def test_frames_of_the_attempt_before_are_not_taken_for_this_one() -> None:
     wire.run_until(lambda: receiver.done)
 
     assert receiver.frames_foreign > 0
-    assert b"".join(receiver.take_pieces()) == truth()[: log.length]
+    assert b"".join(receiver.take_segments()) == truth()[: log.length]
 
 
 def test_live_values_lose_nothing_to_a_log_and_the_log_gets_what_is_left() -> None:
@@ -197,7 +197,7 @@ def test_the_unit_frees_nothing_before_it_is_told_the_log_is_safe() -> None:
     log = the_log(wire)
     receiver = begin(wire, log)
     wire.run_until(lambda: receiver.done)
-    data = b"".join(receiver.take_pieces())
+    data = b"".join(receiver.take_segments())
     wire.ask(close_log(receiver.session))
     assert not the_log(wire).confirmed
 

@@ -15,10 +15,10 @@ from backend.device.configuration import ConfigImage
 from backend.device.ebl.operations.config_transaction import read_bank, read_config, write_config
 from backend.device.ebl.operations.config_trial import confirm_config, rollback_config
 from backend.device.ebl.operations.fault_frames import clear_faults, fault_frames
-from backend.device.ebl.operations.live_values import ask_values
+from backend.device.ebl.operations.live_values import read_values
 from backend.device.ebl.operations.simulation import simulation_get, simulation_set
 from backend.device.ebl.session import handshake
-from backend.device.ebl.session.operation import ask
+from backend.device.ebl.session.operation import query
 from backend.device.ebl.session.schema import differences, unpack_schema
 from backend.device.ebl.session.stream_receiver import BATCH_DEFAULT, StreamPlan
 from backend.device.ebl.session.trial_status import trial_status
@@ -278,7 +278,7 @@ def test_the_snapshot_is_what_the_observer_beside_the_bike_sees() -> None:
     unit.rider("legs", torque_nm=25.0)
     bench.run(8.0)
 
-    values = bench.ask(ask_values())
+    values = bench.ask(read_values())
 
     assert values.channels["speed_kmh"] == pytest.approx(unit.observe()["speed_kmh"], abs=0.3)
 
@@ -371,7 +371,7 @@ def test_the_host_learns_the_unit_s_clock_and_the_unit_the_world_s() -> None:
     # Both clocks are the bench's: the unit's began when the session's stood at 100 s.
     assert estimate.unit_at(160e6) == pytest.approx(60e6, abs=20_000)
     assert abs(estimate.skew_ppm) < 300.0
-    told = bench.ask(ask(TimSyncRequest(1), TimSyncResponse))
+    told = bench.ask(query(TimSyncRequest(1), TimSyncResponse))
     assert told.unix_us == pytest.approx(1_790_000_000_000_000 + bench.now_s * 1e6, abs=50_000)
 
 
@@ -383,7 +383,7 @@ def test_a_unit_is_told_the_time_again_when_its_host_s_clock_was_set(before_us: 
     bench.session.wall_offset_us = 1_795_770_000_000_000
     bench.run(30.0)
 
-    told = bench.ask(ask(TimSyncRequest(1), TimSyncResponse))
+    told = bench.ask(query(TimSyncRequest(1), TimSyncResponse))
     assert told.unix_us == pytest.approx(1_795_770_000_000_000 + bench.now_s * 1e6, abs=50_000)
 
 

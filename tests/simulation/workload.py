@@ -12,7 +12,7 @@ from backend.device.ebl.operations.config_transaction import (
     read_config,
     write_config,
 )
-from backend.device.ebl.operations.live_values import ask_values
+from backend.device.ebl.operations.live_values import read_values
 from backend.device.live_values import Snapshot
 from backend.device.states import LinkState
 from backend.errors import ConfigConflict, NoAnswer, PeerProtocolError
@@ -145,7 +145,7 @@ class Workload:
         def done(values: Snapshot) -> None:
             world.checker.shown_values(values)
 
-        world.ask(name, ask_values(), done, lambda error: self.told(name, error))
+        world.ask(name, read_values(), done, lambda error: self.told(name, error))
 
     def know(self, config: ConfigImage) -> None:
         """A configuration to make changes on."""

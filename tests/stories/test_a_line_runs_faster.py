@@ -10,7 +10,7 @@ from __future__ import annotations
 import time
 
 from backend.device.driver import Driver
-from backend.device.ebl.session.operation import ask
+from backend.device.ebl.session.operation import query
 from backend.device.link import Opener
 from firmware_protocol._generated import AliveRequest, AliveResponse
 from tests.fakes.ebl_driver import ebl_driver
@@ -31,7 +31,7 @@ def test_at_a_low_speed_the_port_and_the_unit_agree_on_a_megabaud() -> None:
     try:
         # Of its clock not a step may have passed: it tells the new rate once it has begun.
         alive = eventually(
-            lambda: unit.run(ask(AliveRequest(), AliveResponse), PATIENCE_S),
+            lambda: unit.run(query(AliveRequest(), AliveResponse), PATIENCE_S),
             lambda told: told.uptime_us > 0,
         )
         assert alive.bits_per_second == 1_000_000
@@ -45,7 +45,7 @@ def test_at_a_low_speed_a_line_that_is_to_stay_slow_carries_what_fits() -> None:
     try:
         deadline_s = time.monotonic() + PATIENCE_S
         while unit.status().statistics.stream_rows < 20 and time.monotonic() < deadline_s:
-            alive = unit.run(ask(AliveRequest(), AliveResponse), PATIENCE_S)
+            alive = unit.run(query(AliveRequest(), AliveResponse), PATIENCE_S)
             assert alive.bits_per_second == 115200
         assert unit.status().statistics.stream_rows >= 20
         assert unit.status().statistics.bits_per_second == 115200

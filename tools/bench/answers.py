@@ -1,7 +1,7 @@
 """How long an answer takes beside a stream as full as the unit admits it, in virtual time."""
 
-from backend.device.ebl.operations.live_values import ask_values
-from backend.device.ebl.session.operation import Operation, ask
+from backend.device.ebl.operations.live_values import read_values
+from backend.device.ebl.session.operation import Operation, query
 from backend.device.ebl.session.stream_receiver import StreamPlan
 from backend.errors import DeviceRefused
 from firmware_protocol._generated import (
@@ -61,7 +61,7 @@ def fill(wire: SerialWire, stream_id: int) -> None:
         ids = bytes(channel.id for channel in CHANNELS[:count])
         request = StrSubscribeRequest(stream_id, 1, BATCH, 0, LEASE_S, ids)
         try:
-            wire.ask(ask(request, StrSubscribeResponse))
+            wire.ask(query(request, StrSubscribeResponse))
             return
         except DeviceRefused as error:
             if error.status != Status.BANDWIDTH.name:
@@ -74,7 +74,7 @@ def answered(wire: SerialWire, index: int) -> float:
     wire.run(PAUSE_S * (1 + index % 7))
     began_s = wire.now_s
     question: Operation[object] = (
-        ask_values() if index % 2 else ask(CfgReadRequest(Bank.ACTIVE, 0, 100), CfgReadResponse)
+        read_values() if index % 2 else query(CfgReadRequest(Bank.ACTIVE, 0, 100), CfgReadResponse)
     )
     wire.ask(question)
     return wire.now_s - began_s

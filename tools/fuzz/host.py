@@ -14,7 +14,7 @@ from contextlib import suppress
 import atheris
 
 with atheris.instrument_imports(include=["firmware_protocol", "backend"]):
-    from backend.formats.blocks import Block, put_block, scan
+    from backend.formats.blocks import Block, encode_block, scan
     from backend.formats.containers.archive import BrokenArchive, Entry, entries
     from backend.formats.formats import SNIFFED_BYTES, read_file, refused_by_head
     from backend.formats.mahle import read_mahle
@@ -107,7 +107,7 @@ HEADS = [
         b"secs\n",
         b"\x89PNG",
     ),
-    put_block(Block(0, 1, 1, 1, 1, 0, 0, 0, 1, b"")),
+    encode_block(Block(0, 1, 1, 1, 1, 0, 0, 0, 1, b"")),
 ]
 NAMES = [
     "ride",
@@ -253,7 +253,7 @@ def log(data: bytes) -> None:
     file = b""
     while from_input.remaining_bytes():
         if from_input.ConsumeBool():
-            file += put_block(any_block(from_input))[: from_input.ConsumeIntInRange(1, 1024)]
+            file += encode_block(any_block(from_input))[: from_input.ConsumeIntInRange(1, 1024)]
         else:
             file += from_input.ConsumeBytes(40)
     assert scan(file).damaged <= len(file)

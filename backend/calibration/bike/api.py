@@ -7,7 +7,7 @@ from typing import Annotated
 from fastapi import APIRouter
 
 from backend.calibration.bike.climb_check import Question, Slope
-from backend.calibration.bike.coast_down import Known
+from backend.calibration.bike.coast_down import ClimbInputs
 from backend.calibration.bike.service import BikeNumbers
 from backend.calibration.bike.types import (
     Cadence,
@@ -37,8 +37,8 @@ Provided = Annotated[BikeNumbers, provided("bike_numbers")]
 @router.post("/wheel/roll-out", operation_id="roll_out_wheel", responses=UNIT)
 def roll_out_wheel(body: RollOut, bike_numbers: Provided) -> Wheel:
     """The circumference from rolls on the ground, with its uncertainty, beside the unit's."""
-    told = body.distances_m, body.turns, body.tape_limit_m
-    return bike_numbers.wheel.rolled(*told, body.device_id)
+    marks = body.distances_m, body.turns, body.tape_limit_m
+    return bike_numbers.wheel.rolled(*marks, body.device_id)
 
 
 @router.post(
@@ -83,29 +83,29 @@ def check_cadence(body: CadenceRequest, bike_numbers: Provided) -> Cadence:
 def check_by_climb(body: ClimbRequest, bike_numbers: Provided) -> ClimbTold:
     """The torque gain from the energy of a climb, which shares nothing with masses on a pedal;
     refused by name where the rides cannot tell."""
-    told_pct = body.calibrated_expanded_pct
+    calibrated_pct = body.calibrated_expanded_pct
     return bike_numbers.climb(
         Question(
             slope(body.climb),
             [slope(one) for one in body.coast_downs],
-            known(body),
+            climb_inputs(body),
             body.motor_off,
-            None if told_pct is None else told_pct / 100,
+            None if calibrated_pct is None else calibrated_pct / 100,
         )
     )
 
 
-def slope(asked: SlopeRidden) -> Slope:
+def slope(requested: SlopeRidden) -> Slope:
     """A window with its rise."""
-    return Slope(Window(asked.ride_id, asked.from_s, asked.to_s), asked.rise_m)
+    return Slope(Window(requested.ride_id, requested.from_s, requested.to_s), requested.rise_m)
 
 
-def known(body: ClimbRequest) -> Known:
+def climb_inputs(body: ClimbRequest) -> ClimbInputs:
     """What is known besides the rides."""
-    names = Known.__dataclass_fields__.keys() - {"gravity_ms2", "gravity_limit_ms2"}
-    told = {name: getattr(body, name) for name in names}
+    names = ClimbInputs.__dataclass_fields__.keys() - {"gravity_ms2", "gravity_limit_ms2"}
+    values = {name: getattr(body, name) for name in names}
     gravity_ms2, gravity_limit_ms2 = gravity_of(body.gravity)
-    return Known(gravity_ms2=gravity_ms2, gravity_limit_ms2=gravity_limit_ms2, **told)
+    return ClimbInputs(gravity_ms2=gravity_ms2, gravity_limit_ms2=gravity_limit_ms2, **values)
 
 
 def gravity_of(place: GravityAt | GravityGiven | None) -> tuple[float, float]:
@@ -114,5 +114,5 @@ def gravity_of(place: GravityAt | GravityGiven | None) -> tuple[float, float]:
         return ANYWHERE_MS2, ANYWHERE_LIMIT_MS2
     if isinstance(place, GravityGiven):
         return place.gravity_ms2, ROOT_3 * place.standard_ms2
-    told = gravity_at(place.latitude_deg, place.height_m, place.height_standard_m)
-    return told.gravity_ms2, ROOT_3 * told.standard_ms2
+    gravity = gravity_at(place.latitude_deg, place.height_m, place.height_standard_m)
+    return gravity.gravity_ms2, ROOT_3 * gravity.standard_ms2

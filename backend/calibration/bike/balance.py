@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from backend.calibration.bike.coast_down import Known, Resistance
+from backend.calibration.bike.coast_down import ClimbInputs, Resistance
 from backend.calibration.bike.wheel import ROOT_3, as_array, ordered, raise_if
 from backend.calibration.plain import Plain
 from backend.calibration.verification import en_number
@@ -88,7 +88,10 @@ class _Inputs(NamedTuple):
 
 
 def balance(
-    climb: Climb, found: Resistance, known: Known, calibrated_expanded_share: float
+    climb: Climb,
+    resistance: Resistance,
+    climb_inputs: ClimbInputs,
+    calibrated_expanded_share: float,
 ) -> Balance:
     """The climb's energy against what the torque sensor told.
 
@@ -97,60 +100,68 @@ def balance(
     """
     time_s, speed = as_array(climb.time_s), as_array(climb.speed_ms)
     torque, cadence = as_array(climb.torque_nm), as_array(climb.cadence_rpm)
-    _checked_climb(climb, known)
+    _checked_climb(climb, climb_inputs)
     crank_j = float(np.trapezoid(torque * cadence * RPM_TO_RAD_S, time_s))
     if crank_j <= 0:
         raise_if([FieldError("torque_nm", "no_work", "torque_nm: the legs gave nothing")])
     inputs = _Inputs(
-        known.mass_kg, known.wheels_kg, climb.rise_m, known.gravity_ms2, known.efficiency, 1.0,
-        0.0, found.rolling_n, found.air_ns2_m2,
+        climb_inputs.mass_kg, climb_inputs.wheels_kg, climb.rise_m,
+        climb_inputs.gravity_ms2, climb_inputs.efficiency,
+        1.0, 0.0, resistance.rolling_n, resistance.air_ns2_m2,
     )  # fmt: skip
 
-    def ratio(given: _Inputs) -> float:
-        return math.fsum(_road_j(given, time_s, speed)) / (given.efficiency * crank_j)
+    def ratio(inputs_changed: _Inputs) -> float:
+        return math.fsum(_road_j(inputs_changed, time_s, speed)) / (
+            inputs_changed.efficiency * crank_j
+        )
 
     middle = ratio(inputs)
-    parts = _contributions(ratio, inputs, found, known)
+    parts = _contributions(ratio, inputs, resistance, climb_inputs)
     expanded = 2 * math.sqrt(math.fsum(part**2 for part in parts.values()))
     en = en_number(middle - 1, math.hypot(expanded, calibrated_expanded_share * middle))
-    said = "agrees with" if en <= 1 else "differs from"
+    verdict = "agrees with" if en <= 1 else "differs from"
     sentence = (
-        f"the climb {said} the calibration: true torque is {middle:.3f} ± {expanded:.3f} of what"
+        f"the climb {verdict} the calibration: true torque is {middle:.3f} ± {expanded:.3f} of what"
         " the sensor tells"
     )
     road = _road_j(inputs, time_s, speed)
     needed_j = math.fsum(road)
-    given_w = climb.motor_w
-    motor_j = None if given_w is None else float(np.trapezoid(as_array(given_w), time_s))
-    needed = Needed(*road, needed_j / known.efficiency - needed_j)
+    motor_w = climb.motor_w
+    motor_j = None if motor_w is None else float(np.trapezoid(as_array(motor_w), time_s))
+    needed = Needed(*road, needed_j / climb_inputs.efficiency - needed_j)
     return Balance(
         middle, crank_j, motor_j, needed_j, needed, parts, expanded, en, en <= 1, sentence
     )
 
 
-def _road_j(given: _Inputs, time_s: Numbers, told_ms: Numbers) -> tuple[float, float, float, float]:
+def _road_j(
+    inputs: _Inputs, time_s: Numbers, recorded_ms: Numbers
+) -> tuple[float, float, float, float]:
     """Gravity, kinetic, rolling and air."""
-    speed = told_ms * given.speed_share
-    heavy_kg = given.mass_kg + given.wheels_kg
-    against = speed + given.wind_ms
-    air_j = given.air_ns2_m2 * float(np.trapezoid(np.abs(against) * against * speed, time_s))
-    rolling_j = given.rolling_n * float(np.trapezoid(speed, time_s))
+    speed = recorded_ms * inputs.speed_share
+    heavy_kg = inputs.mass_kg + inputs.wheels_kg
+    against = speed + inputs.wind_ms
+    air_j = inputs.air_ns2_m2 * float(np.trapezoid(np.abs(against) * against * speed, time_s))
+    rolling_j = inputs.rolling_n * float(np.trapezoid(speed, time_s))
     kinetic_j = heavy_kg * float(speed[-1] ** 2 - speed[0] ** 2) / 2
-    return given.mass_kg * given.gravity_ms2 * given.rise_m, kinetic_j, rolling_j, air_j
+    return inputs.mass_kg * inputs.gravity_ms2 * inputs.rise_m, kinetic_j, rolling_j, air_j
 
 
 def _contributions(
-    ratio: Callable[[_Inputs], float], inputs: _Inputs, found: Resistance, known: Known
+    ratio: Callable[[_Inputs], float],
+    inputs: _Inputs,
+    resistance: Resistance,
+    climb_inputs: ClimbInputs,
 ) -> dict[str, float]:
     """Each by half the difference of one standard uncertainty up and down (GUM 5.1.3, note 2)."""
     standards = {
-        "mass_kg": known.mass_limit_kg / ROOT_3,
-        "wheels_kg": known.wheels_limit_kg / ROOT_3,
-        "rise_m": known.rise_limit_m / ROOT_3,
-        "gravity_ms2": known.gravity_limit_ms2 / ROOT_3,
-        "efficiency": known.efficiency_limit / ROOT_3,
-        "speed_share": known.speed_share_limit / ROOT_3,
-        "wind_ms": known.wind_limit_ms / ROOT_3,
+        "mass_kg": climb_inputs.mass_limit_kg / ROOT_3,
+        "wheels_kg": climb_inputs.wheels_limit_kg / ROOT_3,
+        "rise_m": climb_inputs.rise_limit_m / ROOT_3,
+        "gravity_ms2": climb_inputs.gravity_limit_ms2 / ROOT_3,
+        "efficiency": climb_inputs.efficiency_limit / ROOT_3,
+        "speed_share": climb_inputs.speed_share_limit / ROOT_3,
+        "wind_ms": climb_inputs.wind_limit_ms / ROOT_3,
         "rolling_n": 1.0,
         "air_ns2_m2": 1.0,
     }
@@ -163,12 +174,12 @@ def _contributions(
         for name, standard in standards.items()
     }
     by = np.array([shift.pop("rolling_n"), shift.pop("air_ns2_m2")])
-    told = {name: abs(value) for name, value in shift.items()}
-    told["road"] = math.sqrt(max(0.0, float(by @ np.array(found.covariance) @ by)))
-    return told
+    contributions = {name: abs(value) for name, value in shift.items()}
+    contributions["road"] = math.sqrt(max(0.0, float(by @ np.array(resistance.covariance) @ by)))
+    return contributions
 
 
-def _checked_climb(climb: Climb, known: Known) -> None:
+def _checked_climb(climb: Climb, climb_inputs: ClimbInputs) -> None:
     faults = []
     for name in ("speed_ms", "torque_nm", "cadence_rpm"):
         if not ordered(as_array(climb.time_s), as_array(getattr(climb, name))):
@@ -176,7 +187,7 @@ def _checked_climb(climb: Climb, known: Known) -> None:
             faults.append(FieldError(name, "wrong_shape", message))
     if climb.motor_w is not None and max(climb.motor_w, default=0.0) > MOTOR_MOST_W:
         faults.append(FieldError("motor_w", "motor_helped", "motor_w: the motor must be off"))
-    if not known.mass_kg * known.gravity_ms2 * climb.rise_m >= CLIMB_LEAST_J:
+    if not climb_inputs.mass_kg * climb_inputs.gravity_ms2 * climb.rise_m >= CLIMB_LEAST_J:
         message = f"rise_m: {climb.rise_m:g} m is too little of a climb to tell"
         faults.append(FieldError("rise_m", "too_short", message))
     raise_if(faults)

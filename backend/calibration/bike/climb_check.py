@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from backend.calibration.bike.balance import Climb, balance
-from backend.calibration.bike.coast_down import Known, Run, resistance
+from backend.calibration.bike.coast_down import ClimbInputs, Run, resistance
 from backend.calibration.bike.types import CalibratedTorque, CertificateOfTorque, ClimbTold
 from backend.calibration.bike.wheel_measure import Rows, refusal, rows_of
 from backend.core.channels import Values
@@ -24,7 +24,7 @@ from backend.store import Store
 SPEED, TORQUE, CADENCE, ALTITUDE = "speed_kmh", "rider_torque_nm", "cadence_rpm", "altitude_m"
 END_S = 5.0
 """Of heights at either end, through which a line is laid."""
-ASKED_NM = 0.05
+DEMANDED_NM = 0.05
 """At the motor's shaft; asked for more, the motor was not off."""
 
 
@@ -45,7 +45,7 @@ class Question:
 
     climb: Slope
     coast_downs: Sequence[Slope]
-    known: Known
+    climb_inputs: ClimbInputs
     motor_off: bool
     calibrated_expanded_share: float | None
 
@@ -79,11 +79,13 @@ class ClimbCheck:
             rise_m,
             self._motor_w(rows.ride.motor_torque_meaning, question),
         )
-        found = resistance(runs, question.known)
+        fitted = resistance(runs, question.climb_inputs)
         calibrated = self._calibrated(question, rows)
-        weighed = balance(climb, found, question.known, calibrated.expanded_share)
+        weighed = balance(climb, fitted, question.climb_inputs, calibrated.expanded_share)
         duration_s = float(rows.time_s[-1] - rows.time_s[0])
-        return ClimbTold(rows.ride.context.unit_key, rise_m, duration_s, found, weighed, calibrated)
+        return ClimbTold(
+            rows.ride.context.unit_key, rise_m, duration_s, fitted, weighed, calibrated
+        )
 
     def _calibrated(self, question: Question, rows: Rows) -> CalibratedTorque:
         if question.calibrated_expanded_share is not None:
@@ -110,11 +112,17 @@ class ClimbCheck:
             power_w: list[float] = rows[MOTOR_POWER.name].tolist()
             return power_w
         if not question.motor_off:
-            told = "only what was asked of the motor" if meaning else "nothing of the motor"
-            message = f"ride {window.ride_id} tells {told}: was it off?"
+            recorded = "only what was asked of the motor" if meaning else "nothing of the motor"
+            message = f"ride {window.ride_id} tells {recorded}: was it off?"
             raise refusal("motor_off", "motor_unknown", message)
-        asked = next((one for one in (MOTOR_TORQUE_DEMANDED, MOTOR_TORQUE) if one in offered), None)
-        if asked and rows_of(self._store, window, "climb", [asked])[asked].max() > ASKED_NM:
+        torque_channel = next(
+            (one for one in (MOTOR_TORQUE_DEMANDED, MOTOR_TORQUE) if one in offered), None
+        )
+        if (
+            torque_channel
+            and rows_of(self._store, window, "climb", [torque_channel])[torque_channel].max()
+            > DEMANDED_NM
+        ):
             message = f"ride {window.ride_id} asked the motor for torque: it was not off"
             raise refusal("motor_off", "motor_helped", message)
         return None
@@ -122,8 +130,8 @@ class ClimbCheck:
 
 def list_ms(rows: Rows) -> list[float]:
     """The speed in metres a second."""
-    told: list[float] = (rows[SPEED] / KMH_PER_MS).tolist()
-    return told
+    speeds: list[float] = (rows[SPEED] / KMH_PER_MS).tolist()
+    return speeds
 
 
 def rise_by_heights(time_s: Values, altitude_m: Values) -> float:

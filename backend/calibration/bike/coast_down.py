@@ -33,7 +33,7 @@ class Run(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Known(Plain):
+class ClimbInputs(Plain):
     """What is known besides, and how well: each `_limit` is a half width. wheels_kg: what the
     wheels' inertia adds to the mass. efficiency: from crank to road. speed_share: of the wheel's
     circumference. wind_limit_ms: along the climb, beyond that of the coast-downs."""
@@ -62,7 +62,7 @@ class Resistance(Plain):
     source: Literal["coast_down", "typical"] = "coast_down"
 
 
-def resistance(runs: Sequence[Run], known: Known) -> Resistance:
+def resistance(runs: Sequence[Run], climb_inputs: ClimbInputs) -> Resistance:
     """Rolling and air from coast-downs, at best the same stretch both ways; typical ones with wide
     limits without any.
 
@@ -70,9 +70,9 @@ def resistance(runs: Sequence[Run], known: Known) -> Resistance:
     a line in two knowns, with each run's first speed free. Raises InvalidRequest.
     """
     if not runs:
-        return typical(known)
+        return typical(climb_inputs)
     _checked_runs(runs)
-    heavy_kg = known.mass_kg + known.wheels_kg
+    heavy_kg = climb_inputs.mass_kg + climb_inputs.wheels_kg
     rows, lost = [], []
     for place, run in enumerate(runs):
         time_s, speed = as_array(run.time_s), as_array(run.speed_ms)
@@ -82,20 +82,20 @@ def resistance(runs: Sequence[Run], known: Known) -> Resistance:
         own[:, place] = 1.0
         rows.append(np.column_stack([time_s, squares, own]))
         distance_m = float(summed(speed, time_s)[-1])
-        slope_n = known.mass_kg * known.gravity_ms2 * run.rise_m / distance_m
+        slope_n = climb_inputs.mass_kg * climb_inputs.gravity_ms2 * run.rise_m / distance_m
         lost.append(-heavy_kg * speed - slope_n * time_s)
-    matrix, wanted = np.concatenate(rows), np.concatenate(lost)
-    values = np.linalg.lstsq(matrix, wanted, rcond=None)[0]
-    left = wanted - matrix @ values
-    variance = float(left @ left) / (wanted.size - values.size)
+    matrix, right_side = np.concatenate(rows), np.concatenate(lost)
+    values = np.linalg.lstsq(matrix, right_side, rcond=None)[0]
+    left = right_side - matrix @ values
+    variance = float(left @ left) / (right_side.size - values.size)
     covariance = variance * np.linalg.pinv(matrix.T @ matrix)[:2, :2]
     (a, b), (c, d) = covariance.tolist()
     return Resistance(float(values[0]), float(values[1]), ((a, b), (c, d)))
 
 
-def typical(known: Known) -> Resistance:
+def typical(climb_inputs: ClimbInputs) -> Resistance:
     """Of a bike of which nobody knows more: rectangles wide enough for all of them."""
-    weight_n = known.mass_kg * known.gravity_ms2
+    weight_n = climb_inputs.mass_kg * climb_inputs.gravity_ms2
     rolling = TYPICAL_ROLLING_LIMIT * weight_n / ROOT_3
     air = TYPICAL_AIR_LIMIT_NS2_M2 / ROOT_3
     covariance = ((rolling**2, 0.0), (0.0, air**2))

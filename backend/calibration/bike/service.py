@@ -13,7 +13,7 @@ from backend.calibration.bike.climb_check import CertifiedOf, ClimbCheck
 from backend.calibration.bike.types import Cadence, PulsesTold
 from backend.calibration.bike.wheel import cadence_error_rpm, pulses_per_turn, summed
 from backend.calibration.bike.wheel_measure import (
-    KEPT,
+    CIRCUMFERENCE_PARAMETER,
     SPEED,
     ParametersOf,
     WheelMeasure,
@@ -50,13 +50,13 @@ class CadenceCheck:
             message = f"the crank made {turns:.1f} turns there; {TURNS_MIN:g} are needed"
             raise refusal("ride_id", "too_few_turns", message)
         duration_s = float(rows.time_s[-1] - rows.time_s[0])
-        told_rpm = float(np.trapezoid(rows[CADENCE], rows.time_s)) / duration_s
-        error, expanded = cadence_error_rpm(told_rpm, turns, duration_s)
+        reported_rpm = float(np.trapezoid(rows[CADENCE], rows.time_s)) / duration_s
+        error, expanded = cadence_error_rpm(reported_rpm, turns, duration_s)
         agrees = abs(error) <= expanded
-        return Cadence(told_rpm, turns, duration_s, error, expanded, agrees)
+        return Cadence(reported_rpm, turns, duration_s, error, expanded, agrees)
 
 
-KEPT_PULSES = "wheel_pulses_per_turn"
+PULSES_PARAMETER = "wheel_pulses_per_turn"
 
 
 class PulseCount:
@@ -71,14 +71,17 @@ class PulseCount:
         where the ride cannot tell."""
         rows = rows_of(self._store, window, "ride_id", [SPEED])
         config, source = all_through(self._config_of, rows.ride)
-        circumference_m, kept = config.get(KEPT), config.get(KEPT_PULSES)
-        if source != "ride" or circumference_m is None or kept is None:
+        circumference_m, stored_pulses = (
+            config.get(CIRCUMFERENCE_PARAMETER),
+            config.get(PULSES_PARAMETER),
+        )
+        if source != "ride" or circumference_m is None or stored_pulses is None:
             message = f"ride {window.ride_id} does not tell what its unit counted with"
             raise refusal("ride_id", "missing", message)
-        way_m = float(summed(rows[SPEED] / KMH_PER_MS, rows.time_s)[-1])
-        told_turns = way_m / float(circumference_m)
-        found = pulses_per_turn(int(kept), told_turns, turns)
-        return PulsesTold(rows.ride.context.unit_key, told_turns, turns, found)
+        distance_m = float(summed(rows[SPEED] / KMH_PER_MS, rows.time_s)[-1])
+        counted_turns = distance_m / float(circumference_m)
+        pulses = pulses_per_turn(int(stored_pulses), counted_turns, turns)
+        return PulsesTold(rows.ride.context.unit_key, counted_turns, turns, pulses)
 
 
 class BikeNumbers:

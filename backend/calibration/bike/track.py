@@ -49,25 +49,25 @@ class Track(NamedTuple):
 def track_of(
     latitude_deg: Sequence[float] | Numbers,
     longitude_deg: Sequence[float] | Numbers,
-    told_m: Sequence[float] | Numbers,
+    wheel_m: Sequence[float] | Numbers,
 ) -> Track | None:
     """Positions (n,), one a second or slower, and the way (n,) that the wheel had told at each;
     None where there are too few to tell."""
     east_m, north_m = on_the_ground(np.asarray(latitude_deg), np.asarray(longitude_deg))
-    told = np.asarray(told_m, np.float64)
-    steps = np.diff(told)
+    wheel = np.asarray(wheel_m, np.float64)
+    steps = np.diff(wheel)
     moving = steps[steps > 0]
     if not moving.size:
         return None
     lags = max(LAGS_LEAST, round(CHORDS_MOST_M / float(np.median(moving))))
-    blocks = min(BLOCKS_MOST, told.size // (5 * lags))
+    blocks = min(BLOCKS_MOST, wheel.size // (5 * lags))
     if blocks < BLOCKS_LEAST:
         return None
-    smooth, sharp, noise_m = _ratios(east_m, north_m, told, lags)
+    smooth, sharp, noise_m = _ratios(east_m, north_m, wheel, lags)
     parts = [
-        sum(_ratios(east_m[part], north_m[part], told[part], lags)[:2]) / 2
-        for part in np.array_split(np.arange(told.size), blocks)
-        if np.ptp(told[part]) > CHORDS_MOST_M
+        sum(_ratios(east_m[part], north_m[part], wheel[part], lags)[:2]) / 2
+        for part in np.array_split(np.arange(wheel.size), blocks)
+        if np.ptp(wheel[part]) > CHORDS_MOST_M
     ]
     if len(parts) < BLOCKS_LEAST:
         return None
@@ -93,23 +93,23 @@ def on_the_ground(latitude_deg: Numbers, longitude_deg: Numbers) -> tuple[Number
 
 
 def _ratios(
-    east_m: Numbers, north_m: Numbers, told_m: Numbers, lags: int
+    east_m: Numbers, north_m: Numbers, wheel_m: Numbers, lags: int
 ) -> tuple[float, float, float]:
     """The ratio with smooth bends and with sharp ones, and the noise of a position in metres."""
     squares, ways = [], []
     for lag in range(1, lags + 1):
-        way = told_m[lag:] - told_m[:-lag]
+        wheel_chord_m = wheel_m[lag:] - wheel_m[:-lag]
         chord = (east_m[lag:] - east_m[:-lag]) ** 2 + (north_m[lag:] - north_m[:-lag]) ** 2
         squares.append(float(chord.mean()))
-        ways.append([float((way**power).mean()) for power in (0, 2, SHARP, SMOOTH)])
-    matrix, wanted = np.array(ways), np.array(squares)
+        ways.append([float((wheel_chord_m**power).mean()) for power in (0, 2, SHARP, SMOOTH)])
+    matrix, squared = np.array(ways), np.array(squares)
     weight = 1 / np.sqrt(matrix[:, 1])
-    found = {}
+    ratios = {}
     for place, power in ((3, SMOOTH), (2, SHARP)):
         terms = matrix[:, [0, 1, place]] * weight[:, None]
         scale = terms.max(axis=0)
-        values = np.linalg.lstsq(terms / scale, wanted * weight, rcond=None)[0] / scale
-        found[power] = values
-    noise_m = math.sqrt(max(0.0, float(found[SMOOTH][0]) / 4))
-    smooth, sharp = (math.sqrt(max(0.0, float(found[power][1]))) for power in (SMOOTH, SHARP))
+        values = np.linalg.lstsq(terms / scale, squared * weight, rcond=None)[0] / scale
+        ratios[power] = values
+    noise_m = math.sqrt(max(0.0, float(ratios[SMOOTH][0]) / 4))
+    smooth, sharp = (math.sqrt(max(0.0, float(ratios[power][1]))) for power in (SMOOTH, SHARP))
     return smooth, sharp, noise_m

@@ -131,48 +131,48 @@ def roll_out(distances_m: Sequence[float], turns: float, tape_limit_m: float) ->
     return _circumference(mean_m, scatter, each.size - 1, limits, "roll_out")
 
 
-def from_gps(track: Track | None, told_m: float, turns: float) -> Circumference:
+def from_gps(track: Track | None, wheel_m: float, turns: float) -> Circumference:
     """From a ride's track and the turns its speed sensor counted on the same stretch.
 
-    track: by the way told_m that was told there; None where it is too short to tell. Raises
-    InvalidRequest, also for positions too rough to tell.
+    track: None where it is too short. wheel_m: the distance by the wheel sensor. Raises
+    InvalidRequest, also for positions that are too inaccurate.
     """
     faults = []
-    long_enough = math.isfinite(told_m) and told_m >= GPS_LEAST_M
+    long_enough = math.isfinite(wheel_m) and wheel_m >= GPS_LEAST_M
     if track is None or not long_enough:
         faults.append(_fault("distance_m", f"a track of {GPS_LEAST_M:g} m or more is needed"))
     if not (math.isfinite(turns) and turns > 0):
         faults.append(_fault("turns", "the turns of the ride must be above 0"))
     _raise(faults)
     assert track is not None
-    mean_m = track.ratio * told_m / turns
+    mean_m = track.ratio * wheel_m / turns
     scatter = track.scatter / track.ratio * mean_m
     bends = track.bends_limit / track.ratio
     share = math.hypot(bends, GPS_WANDER_SHARE, 1 / turns) / ROOT_3
-    found = _circumference(mean_m, scatter, track.freedom, share * mean_m, "gps")
-    if found.expanded_m > GPS_EXPANDED_SHARE_MAX * mean_m:
+    result = _circumference(mean_m, scatter, track.freedom, share * mean_m, "gps")
+    if result.expanded_m > GPS_EXPANDED_SHARE_MAX * mean_m:
         message = (
             f"the positions are {track.noise_m:.1f} m off and bends leave "
             f"{100 * bends:.1f} % open: they tell the circumference to "
-            f"{100 * found.expanded_m / mean_m:.1f} % only, {100 * GPS_EXPANDED_SHARE_MAX:g} % "
+            f"{100 * result.expanded_m / mean_m:.1f} % only, {100 * GPS_EXPANDED_SHARE_MAX:g} % "
             "are needed; take a longer and straighter ride under an open sky, or roll out"
         )
         _raise([FieldError("track", "too_rough", f"track: {message}")])
-    return found
+    return result
 
 
 def cut_off(
-    kept_m: float, measured: Circumference, limit_kmh: float, tolerance_pct: float = 0.0
+    stored_m: float, measured: Circumference, limit_kmh: float, tolerance_pct: float = 0.0
 ) -> CutOff:
-    """The bike counts turns and multiplies by `kept_m`: a wheel that is larger is faster."""
-    true_kmh = limit_kmh * measured.circumference_m / kept_m
-    expanded = limit_kmh * measured.expanded_m / kept_m
+    """The bike counts turns and multiplies by `stored_m`: a wheel that is larger is faster."""
+    true_kmh = limit_kmh * measured.circumference_m / stored_m
+    expanded = limit_kmh * measured.expanded_m / stored_m
     most = limit_kmh * (1 + tolerance_pct / 100)
     return CutOff(limit_kmh, true_kmh, expanded, true_kmh + expanded <= most)
 
 
-def pulses_per_turn(kept: int, told_turns: float, turns: float) -> Pulses:
-    """From turns of the wheel by hand, and what the unit made of them with `kept` pulses a turn.
+def pulses_per_turn(stored: int, counted_turns: float, turns: float) -> Pulses:
+    """From turns of the wheel by hand, and what the unit made of them with `stored` pulses a turn.
 
     The unit tells no pulses but the way they came to: told_turns are that way in turns. Raises
     InvalidRequest for too few turns.
@@ -181,25 +181,25 @@ def pulses_per_turn(kept: int, told_turns: float, turns: float) -> Pulses:
     if not (math.isfinite(turns) and turns >= PULSE_TURNS_LEAST):
         message = f"{PULSE_TURNS_LEAST:g} turns or more tell the pulses apart"
         faults.append(FieldError("turns", "too_few_turns", f"turns: {message}"))
-    if not told_turns > 0:
+    if not counted_turns > 0:
         message = "ride_id: the unit told no speed there: no pulse came"
         faults.append(FieldError("ride_id", "no_pulses", message))
     _raise(faults)
-    found = kept * told_turns / turns
-    expanded = 2 * math.hypot(found * HAND_TURNS, END_PULSES) / turns / ROOT_3
-    nearest = max(1, round(found))
-    whole = nearest if abs(nearest - found) <= expanded else None
-    return Pulses(kept, found, expanded, whole, abs(kept - found) <= expanded)
+    pulses = stored * counted_turns / turns
+    expanded = 2 * math.hypot(pulses * HAND_TURNS, END_PULSES) / turns / ROOT_3
+    nearest = max(1, round(pulses))
+    whole_pulses = nearest if abs(nearest - pulses) <= expanded else None
+    return Pulses(stored, pulses, expanded, whole_pulses, abs(stored - pulses) <= expanded)
 
 
 def cadence_error_rpm(
-    told_rpm: float, crank_turns: float, duration_s: float
+    reported_rpm: float, crank_turns: float, duration_s: float
 ) -> tuple[float, float]:
     """What the unit tells less what was counted, and the expanded uncertainty of the counting:
     half a turn of a crank that started and ended anywhere near its mark, and 0.2 s of a hand."""
     counted_rpm = 60 * crank_turns / duration_s
     share = math.hypot(0.05 / crank_turns, 0.2 / duration_s) / ROOT_3
-    return told_rpm - counted_rpm, 2 * counted_rpm * share
+    return reported_rpm - counted_rpm, 2 * counted_rpm * share
 
 
 def _circumference(

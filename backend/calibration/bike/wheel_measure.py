@@ -56,15 +56,15 @@ def rows_of(store: Store, window: Window, field: str, names: Sequence[str]) -> R
         raise refusal(field, "missing_channel", f"ride {window.ride_id} has no {listed}")
     start, stop, _ = row_window(reader, window.from_s, window.to_s)
     rows = columns_from(reader, names, start, stop)
-    whole = np.ones(stop - start, np.bool_)
+    complete = np.ones(stop - start, np.bool_)
     for name in names:
-        whole &= np.isfinite(rows.values[name])
-    time_s = rows.start_s[whole]
+        complete &= np.isfinite(rows.values[name])
+    time_s = rows.start_s[complete]
     edges = np.concatenate([rows.start_s[:1], time_s, rows.start_s[-1:]])
     if len(time_s) < 2 or np.diff(edges).max() > GAP_S_MAX:
         message = f"ride {window.ride_id} tells nothing there for more than {GAP_S_MAX:g} s"
         raise refusal(field, "missing_rows", message)
-    return Rows(reader.ride, time_s, {name: rows.values[name][whole] for name in names})
+    return Rows(reader.ride, time_s, {name: rows.values[name][complete] for name in names})
 
 
 def refusal(field: str, code: str, message: str) -> InvalidRequest:
@@ -72,7 +72,7 @@ def refusal(field: str, code: str, message: str) -> InvalidRequest:
     return InvalidRequest(f"{field}: {message}", fields=[FieldError(field, code, message)])
 
 
-KEPT, LIMIT = "wheel_circumference_m", "assist_cutoff_kmh"
+CIRCUMFERENCE_PARAMETER, CUTOFF_PARAMETER = "wheel_circumference_m", "assist_cutoff_kmh"
 SPEED, LATITUDE, LONGITUDE = "speed_kmh", "latitude_deg", "longitude_deg"
 
 ENDS_S = 10.0
@@ -84,12 +84,12 @@ ParametersOf = Callable[[str], Sequence[ParameterView]]
 @dataclass(frozen=True)
 class TrackQuestion:
     """wheel: the ride whose speed is of the wheel. track_ride_id: of another device's ride at the
-    same time, which has the positions; None: the same. told_m: what the wheel's device counts
+    same time, which has the positions; None: the same. stored_m: what the wheel's device counts
     with; None: as the ride's configuration says."""
 
     wheel: Window
     track_ride_id: int | None = None
-    told_m: float | None = None
+    stored_m: float | None = None
 
 
 class WheelMeasure:
@@ -107,9 +107,9 @@ class WheelMeasure:
         self, distances_m: Sequence[float], turns: float, tape_limit_m: float, device_id: str | None
     ) -> Wheel:
         """From marks on the ground. Raises InvalidRequest, and what asking a unit raises."""
-        found = roll_out(distances_m, turns, tape_limit_m)
+        circumference = roll_out(distances_m, turns, tape_limit_m)
         mean_m = float(np.mean(distances_m))
-        return Wheel(found, mean_m, turns, None, self._beside(device_id, found))
+        return Wheel(circumference, mean_m, turns, None, self._compared(device_id, circumference))
 
     def tracked(self, question: TrackQuestion, device_id: str | None) -> Wheel:
         """From the positions of a ride. Raises NotFound, ObjectDamaged, InvalidRequest with the
@@ -118,18 +118,18 @@ class WheelMeasure:
         names = [SPEED, LATITUDE, LONGITUDE] if own else [SPEED]
         wheel = rows_of(self._store, question.wheel, "ride_id", names)
         track = wheel if own else self._track(question, wheel)
-        told_m = question.told_m or self._told_m(wheel)
-        way_m = summed(wheel[SPEED] / KMH_PER_MS, wheel.time_s)
-        turns = float(way_m[-1]) / told_m
+        circumference_m = question.stored_m or self._stored_m(wheel)
+        distances_m = summed(wheel[SPEED] / KMH_PER_MS, wheel.time_s)
+        turns = float(distances_m[-1]) / circumference_m
         later_s = (wheel.ride.started_us - track.ride.started_us) / 1e6
         first = once_a_second(track.time_s)
-        at_each_m = np.interp(track.time_s[first] - later_s, wheel.time_s, way_m)
-        along = track_of(track[LATITUDE][first], track[LONGITUDE][first], at_each_m)
-        found = from_gps(along, float(way_m[-1]), turns)
-        noise_m = along.noise_m if along else None
-        distance_m = found.circumference_m * turns
-        beside = self._beside(device_id, found)
-        return Wheel(found, distance_m, turns, noise_m, beside)
+        at_each_m = np.interp(track.time_s[first] - later_s, wheel.time_s, distances_m)
+        track_length = track_of(track[LATITUDE][first], track[LONGITUDE][first], at_each_m)
+        circumference = from_gps(track_length, float(distances_m[-1]), turns)
+        noise_m = track_length.noise_m if track_length else None
+        distance_m = circumference.circumference_m * turns
+        compared = self._compared(device_id, circumference)
+        return Wheel(circumference, distance_m, turns, noise_m, compared)
 
     def _track(self, question: TrackQuestion, wheel: Rows) -> Rows:
         """The other device's rows at the same time. Two clocks differ by seconds: the bike stands
@@ -153,33 +153,36 @@ class WheelMeasure:
             raise refusal("track_ride_id", "not_covered", message)
         return rows
 
-    def _told_m(self, wheel: Rows) -> float:
+    def _stored_m(self, wheel: Rows) -> float:
         config, source = all_through(self._config_of, wheel.ride)
-        told = config.get(KEPT)
-        if source != "ride" or told is None:
+        stored = config.get(CIRCUMFERENCE_PARAMETER)
+        if source != "ride" or stored is None:
             message = "nobody knows what this ride's device counted with"
             raise refusal("told_circumference_m", "missing", message)
-        return float(told)
+        return float(stored)
 
-    def _beside(self, device_id: str | None, found: Circumference) -> BesideUnit | None:
+    def _compared(self, device_id: str | None, circumference: Circumference) -> BesideUnit | None:
         if device_id is None:
             return None
         by_name = {one.name: one for one in self._parameters_of(device_id)}
-        if KEPT not in by_name:
+        if CIRCUMFERENCE_PARAMETER not in by_name:
             message = f"unit {device_id} does not tell its wheel's circumference"
             raise refusal("device_id", "no_circumference", message)
-        kept_m, free = float(str(by_name[KEPT].value)), by_name[KEPT].free
-        limit = by_name.get(LIMIT)
-        measured_m = found.circumference_m
+        stored_m, free = (
+            float(str(by_name[CIRCUMFERENCE_PARAMETER].value)),
+            by_name[CIRCUMFERENCE_PARAMETER].free,
+        )
+        limit = by_name.get(CUTOFF_PARAMETER)
+        measured_m = circumference.circumference_m
         return BesideUnit(
             device_id,
-            kept_m,
+            stored_m,
             None if free is None else free.min,
             None if free is None else free.max,
             None if free is None else free.min <= measured_m <= free.max,
-            100 * (measured_m / kept_m - 1),
-            abs(measured_m - kept_m) <= found.expanded_m,
-            None if limit is None else cut_off(kept_m, found, float(str(limit.value))),
+            100 * (measured_m / stored_m - 1),
+            abs(measured_m - stored_m) <= circumference.expanded_m,
+            None if limit is None else cut_off(stored_m, circumference, float(str(limit.value))),
         )
 
 

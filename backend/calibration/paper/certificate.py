@@ -26,10 +26,10 @@ from backend.paper.sheet import (
     SMALL,
     WARN,
     Cover,
-    beside,
     facts,
     printed,
     section,
+    side_by_side,
     signatures,
     text,
     together,
@@ -39,9 +39,9 @@ MM_PER_M, G_PER_KG = 1000, 1000
 VERDICTS = {"pass": OK, "conditional": WARN, "fail": BAD}
 
 
-def certificate_pdf(told: Certified, manner: Manner) -> bytes:
+def certificate_pdf(certified: Certified, manner: Manner) -> bytes:
     """The file; the same bytes for the same certificate and manner."""
-    about, sha256 = told.evaluated.told.about, told.evaluated.sha256
+    about, sha256 = certified.evaluated.content.about, certified.evaluated.sha256
     title = manner.say("title")
     named = about.bike or about.serial or about.unit_key
     cover = Cover(
@@ -52,38 +52,40 @@ def certificate_pdf(told: Certified, manner: Manner) -> bytes:
         language=LANGUAGES[manner.language],
         paper=manner.paper,
     )
-    return printed(cover, list(_parts(told, manner)))
+    return printed(cover, list(_parts(certified, manner)))
 
 
-def _parts(told: Certified, manner: Manner) -> Iterator[Any]:
-    say, worked = manner.say, told.evaluated.worked
+def _parts(certified: Certified, manner: Manner) -> Iterator[Any]:
+    say, worked = manner.say, certified.evaluated.worked
     yield text(say("title"), 17, bold=True, below=2)
-    yield text(say("number", number=told.evaluated.told.about.number), 10, QUIET, below=5)
-    if not told.evaluated.reproduced:
-        count = len(told.evaluated.differences)
+    yield text(say("number", number=certified.evaluated.content.about.number), 10, QUIET, below=5)
+    if not certified.evaluated.reproduced:
+        count = len(certified.evaluated.differences)
         yield text(say("changed", count=count), 10, BAD, bold=True, below=4)
-    if told.closed_us is None:
+    if certified.closed_us is None:
         yield text(say("open"), colour=WARN, bold=True, below=4)
-    for one in told.clock_set:
+    for one in certified.clock_set:
         words = "clock_set_dated" if one.dated else "clock_set"
         yield text(say(words, when=manner.moment(one.at_us)), colour=WARN, below=4)
-    yield facts(list(_whose(told, manner)), manner.width)
+    yield facts(list(_whose(certified, manner)), manner.width)
     yield from section(say("judgement"), *_judgement(worked, manner))
-    yield from section(say("instruments"), facts(list(_instruments(told, manner)), manner.width))
+    yield from section(
+        say("instruments"), facts(list(_instruments(certified, manner)), manner.width)
+    )
     if worked.fit is not None:
-        yield from _fitted(told, worked, manner)
-    yield from section(say("captures"), captures_table(told, worked, manner))
-    if told.struck:
-        yield from section(say("struck"), *_struck(told, manner))
+        yield from _fitted(certified, worked, manner)
+    yield from section(say("captures"), captures_table(certified, worked, manner))
+    if certified.struck:
+        yield from section(say("struck"), *_struck(certified, manner))
     signed = signatures((say("sign_technician"), say("sign_owner")), manner.width)
-    yield together(*section(say("reproduce"), *_reproduce(told, manner)), signed)
+    yield together(*section(say("reproduce"), *_reproduce(certified, manner)), signed)
 
 
-def _fitted(told: Certified, worked: Worked, manner: Manner) -> Iterator[Any]:
+def _fitted(certified: Certified, worked: Worked, manner: Manner) -> Iterator[Any]:
     """What there is with a fit only."""
     say, fit = manner.say, worked.fit
     assert fit is not None
-    yield from section(say("fit"), fit_table(told, fit, manner))
+    yield from section(say("fit"), fit_table(certified, fit, manner))
     if fit.coefficients.reference_degc is not None and len(fit.names) > 2:
         degc = f"{fit.coefficients.reference_degc:g}"
         yield text(say("reference", degc=degc), SMALL, QUIET)
@@ -91,11 +93,11 @@ def _fitted(told: Certified, worked: Worked, manner: Manner) -> Iterator[Any]:
         yield from section(say("verification"), verification_table(worked, manner))
     else:
         yield from section(say("verification"), text(say("no_verification")))
-    yield from section(say("figures"), figures_table(told, worked, manner))
-    pictures = (residual_picture(told, worked, manner), loop_picture(worked, manner))
+    yield from section(say("figures"), figures_table(certified, worked, manner))
+    pictures = (residual_picture(certified, worked, manner), loop_picture(worked, manner))
     heads = (text(say("residuals"), 11, bold=True), text(say("loop"), 11, bold=True))
     columns = [[head, picture] for head, picture in zip(heads, pictures, strict=True)]
-    yield beside(columns, manner.width)
+    yield side_by_side(columns, manner.width)
     yield text(say("legend"), SMALL, QUIET)
     if worked.piecewise is not None:
         pairs = "; ".join(
@@ -109,12 +111,12 @@ def _fitted(told: Certified, worked: Worked, manner: Manner) -> Iterator[Any]:
         yield from section(say("budget"), budget_table(worked, manner))
 
 
-def _whose(told: Certified, manner: Manner) -> Iterator[tuple[str, str]]:
-    say, about = manner.say, told.evaluated.told.about
-    times = [one.at_utc_us for one in told.evaluated.told.captures]
+def _whose(certified: Certified, manner: Manner) -> Iterator[tuple[str, str]]:
+    say, about = manner.say, certified.evaluated.content.about
+    times = [one.at_utc_us for one in certified.evaluated.content.captures]
     degc = [
         one.state.sensor_degc
-        for one in told.evaluated.told.captures
+        for one in certified.evaluated.content.captures
         if one.state.sensor_degc is not None
     ]
     yield say("bike"), about.bike or ""
@@ -126,9 +128,9 @@ def _whose(told: Certified, manner: Manner) -> Iterator[tuple[str, str]]:
     yield say("unit"), about.unit_key
     yield say("fitted"), manner.moment(about.created_utc_us)
     yield say("model"), about.model or ""
-    yield say("closed"), "" if told.closed_us is None else manner.moment(told.closed_us)
+    yield say("closed"), "" if certified.closed_us is None else manner.moment(certified.closed_us)
     yield say("firmware"), about.firmware_version or ""
-    change = told.change
+    change = certified.change
     yield (
         say("in_unit"),
         say("not_written")
@@ -146,14 +148,14 @@ def _judgement(worked: Worked, manner: Manner) -> Iterator[Any]:
     judged = worked.judgement
     yield text(manner.say(judged.verdict), 14, VERDICTS[judged.verdict], bold=True, below=2)
     for one in judged.causes:
-        told = cause(manner.language, one)
-        yield text(f"{manner.say(one.weight)}: {told}", colour=VERDICTS.get(one.weight, QUIET))
+        sentence = cause(manner.language, one)
+        yield text(f"{manner.say(one.weight)}: {sentence}", colour=VERDICTS.get(one.weight, QUIET))
     if not judged.causes:
         yield text(manner.say("no_causes"))
 
 
-def _instruments(told: Certified, manner: Manner) -> Iterator[tuple[str, str]]:
-    say, setup = manner.say, told.evaluated.told.setup
+def _instruments(certified: Certified, manner: Manner) -> Iterator[tuple[str, str]]:
+    say, setup = manner.say, certified.evaluated.content.setup
     gravity = setup.gravity
     pull = f"{number(gravity.gravity_ms2, 5)} ± {number(gravity.standard_ms2, 5)} m/s² (k = 1)"
     if gravity.source == "place":
@@ -171,7 +173,7 @@ def _instruments(told: Certified, manner: Manner) -> Iterator[tuple[str, str]]:
     yield say("full_scale"), f"{setup.full_scale_nm:g} Nm"
     yield say("resolution"), say("counts", value=f"{setup.resolution_counts:g}")
     yield say("thermometer"), f"± {setup.thermometer_limit_k:g} K"
-    yield say("limits"), manner.choice(told.evaluated.told.limits.source)
+    yield say("limits"), manner.choice(certified.evaluated.content.limits.source)
 
 
 def _mass(mass: Mass, manner: Manner) -> str:
@@ -183,8 +185,8 @@ def _mass(mass: Mass, manner: Manner) -> str:
     return f"{mass.name}, {mass.mass_kg:g} kg ({sure})"
 
 
-def _struck(told: Certified, manner: Manner) -> Iterator[Any]:
-    for one in told.struck:
+def _struck(certified: Certified, manner: Manner) -> Iterator[Any]:
+    for one in certified.struck:
         yield text(
             manner.say(
                 "struck_one",
@@ -197,10 +199,10 @@ def _struck(told: Certified, manner: Manner) -> Iterator[Any]:
         )
 
 
-def _reproduce(told: Certified, manner: Manner) -> Iterator[Any]:
+def _reproduce(certified: Certified, manner: Manner) -> Iterator[Any]:
     yield text(manner.say("reproduce_text"))
-    yield text(f"spindle calibrate evaluate {told.file}", bold=True, below=2)
-    pairs = [(manner.say("sha256"), told.evaluated.sha256)]
-    if told.unit_sha256 is not None:
-        pairs.append((manner.say("unit_sha256"), told.unit_sha256))
+    yield text(f"spindle calibrate evaluate {certified.file}", bold=True, below=2)
+    pairs = [(manner.say("sha256"), certified.evaluated.sha256)]
+    if certified.unit_sha256 is not None:
+        pairs.append((manner.say("unit_sha256"), certified.unit_sha256))
     yield facts(pairs, manner.width, columns=1)

@@ -80,16 +80,16 @@ class Manner:
     def moment(self, at_us: int) -> str:
         """To the second, with the zone's offset."""
         at = datetime.fromtimestamp(at_us // 1_000_000, UTC).astimezone(self.zone)
-        told = at.strftime("%Y-%m-%d %H:%M:%S %z")
-        return f"{told[:-2]}:{told[-2:]}".replace("+00:00", "UTC")
+        text = at.strftime("%Y-%m-%d %H:%M:%S %z")
+        return f"{text[:-2]}:{text[-2:]}".replace("+00:00", "UTC")
 
 
 def number(value: float | None, digits: int, sign: bool = False) -> str:
     """With so many digits behind the point; a dash for what nobody measured."""
     if value is None:
         return "—"
-    told = f"{value:{'+' if sign else ''}.{digits}f}"
-    return told.replace("-", "−") if float(told) != 0 else f"{0:.{digits}f}"
+    text = f"{value:{'+' if sign else ''}.{digits}f}"
+    return text.replace("-", "−") if float(text) != 0 else f"{0:.{digits}f}"
 
 
 def significant(value: float | None, digits: int = 6) -> str:

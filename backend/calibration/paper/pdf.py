@@ -38,7 +38,7 @@ def certificate_paper(
     written = written_document(body)
     job = body.get("job") or {"captures": [], "body": {"changes": []}, "closed_us": None}
     changes = job["body"]["changes"]
-    told = Certified(
+    certified = Certified(
         evaluated=evaluate(body),
         file=file,
         unit_sha256=None if written is None else sha256_of(written),
@@ -55,4 +55,4 @@ def certificate_paper(
             ClockSet(one["at_us"], one["dated"]) for one in job["body"].get("clock_set", ())
         ],
     )
-    return certificate_pdf(told, Manner(language, at, paper))
+    return certificate_pdf(certified, Manner(language, at, paper))

@@ -21,26 +21,26 @@ from backend.paper.sheet import INK, QUIET, SMALL, table, text
 UP: tuple[Shape, Any] = ("up", colors.HexColor("#c4470a"))
 DOWN: tuple[Shape, Any] = ("down", colors.HexColor("#0868a8"))
 HIGH = 150.0
-BESIDE = 2.0
+OFFSET_PX = 2.0
 LEAST_HALF_NM = 0.05
 """So that noise does not fill a picture."""
 
 
-def residual_picture(told: Certified, worked: Worked, manner: Manner) -> Any:
+def residual_picture(certified: Certified, worked: Worked, manner: Manner) -> Any:
     """Over the load: up the way up, down the way down, the means as a line."""
     fit, curve = worked.fit, worked.curve
     assert fit is not None
     assert curve is not None
-    setup = told.evaluated.told.setup
+    setup = certified.evaluated.content.setup
     allowed = worked.judgement.limits.total_pct * setup.full_scale_nm / 100
-    ways = {one.number: one.state.direction for one in told.evaluated.told.captures}
+    ways = {one.number: one.state.direction for one in certified.evaluated.content.captures}
     down = [one for one in fit.residuals if ways.get(one.capture) == "unloading"]
     up = [one for one in fit.residuals if ways.get(one.capture) != "unloading"]
     half = 1.1 * max(allowed, *(abs(one.residual_nm) for one in fit.residuals))
     most = max(one.load_nm for one in fit.residuals)
     marks = [
-        Points([one.load_nm for one in some], [one.residual_nm for one in some], *look)
-        for some, look in ((up, (*UP, -BESIDE)), (down, (*DOWN, BESIDE)))
+        Points([one.load_nm for one in some], [one.residual_nm for one in some], *style)
+        for some, style in ((up, (*UP, -OFFSET_PX)), (down, (*DOWN, OFFSET_PX)))
     ]
     mean = Line(curve.load_nm, curve.residual_nm, INK)
     band = (allowed, manner.say("band", nm=number(allowed, 2)))
@@ -72,9 +72,9 @@ def loop_picture(worked: Worked, manner: Manner) -> Any:
 Row = list[Any]
 
 
-def fit_table(told: Certified, fit: Fit, manner: Manner) -> Any:
+def fit_table(certified: Certified, fit: Fit, manner: Manner) -> Any:
     """Each coefficient as found and as fitted, with its uncertainty and what it means."""
-    found = told.evaluated.told.found
+    unit_coefficients = certified.evaluated.content.found
     head = ["coefficient", "as_found", "fitted_value", "expanded", "meaning"]
     rows: list[Row] = [[manner.say(name) for name in head]]
     for name in NAMES:
@@ -83,7 +83,9 @@ def fit_table(told: Certified, fit: Fit, manner: Manner) -> Any:
         rows.append(
             [
                 manner.say(name),
-                significant(None if found is None else getattr(found, name)),
+                significant(
+                    None if unit_coefficients is None else getattr(unit_coefficients, name)
+                ),
                 manner.say("not_told") if value is None else significant(value),
                 sure and f"± {sure}",
                 _meaning(manner, name),
@@ -92,11 +94,11 @@ def fit_table(told: Certified, fit: Fit, manner: Manner) -> Any:
     return table(rows, _shares(manner, 16, 13, 15, 15, 41), (1, 2, 3))
 
 
-def figures_table(told: Certified, worked: Worked, manner: Manner) -> Any:
+def figures_table(certified: Certified, worked: Worked, manner: Manner) -> Any:
     """Percent of full scale, each beside what is allowed and with its sentence."""
     head = ["figure", "right", "left", "both", "allowed", "meaning"]
     rows: list[Row] = [[manner.say(name) for name in head]]
-    for name, code, sides, both, allowed in _figures(told, worked):
+    for name, code, sides, both, allowed in _figures(certified, worked):
         cells = [number(sides.get(side), 2) if side in sides else "" for side in ("right", "left")]
         limit = "" if allowed is None else f"≤ {allowed:g}"
         rows.append([manner.say(name), *cells, both, limit, _meaning(manner, code)])
@@ -104,11 +106,11 @@ def figures_table(told: Certified, worked: Worked, manner: Manner) -> Any:
 
 
 def _figures(
-    told: Certified, worked: Worked
+    certified: Certified, worked: Worked
 ) -> Iterator[tuple[str, str, dict[str, float], str, float | None]]:
     """Name, code of its meaning, of each pedal, of both, allowed."""
     limits = worked.judgement.limits
-    full = told.evaluated.told.setup.full_scale_nm
+    full = certified.evaluated.content.setup.full_scale_nm
     for name, field, allowed in (
         ("linearity_load", "linearity_load_pct", None),
         ("linearity_line", "linearity_line_pct", limits.linearity_pct),
@@ -124,15 +126,15 @@ def _figures(
     back = worked.zero_return_nm
     back_pct = None if back is None else 100 * abs(back) / full
     yield "zero_return", "zero_return", {}, number(back_pct, 2), limits.zero_return_pct
-    seen = worked.asymmetry
+    asymmetry = worked.asymmetry
     for name, allowed in (
         ("left_right", limits.left_right_pct),
         ("bending_across", limits.bending_pct),
     ):
-        yield name, name, {}, _share(getattr(seen, name, None)), allowed
+        yield name, name, {}, _share(getattr(asymmetry, name, None)), allowed
     if worked.budget is not None:
-        whole = 100 * max(worked.budget.expanded_nm) / full
-        yield "whole", "expanded", {}, number(whole, 2), limits.expanded_pct
+        expanded = 100 * max(worked.budget.expanded_nm) / full
+        yield "whole", "expanded", {}, number(expanded, 2), limits.expanded_pct
 
 
 def budget_table(worked: Worked, manner: Manner) -> Any:
@@ -177,17 +179,19 @@ def verification_table(worked: Worked, manner: Manner) -> Any:
     return table(rows, _shares(manner, 16, 16, 16, 26, 26), (0, 1, 2, 3))
 
 
-def captures_table(told: Certified, worked: Worked, manner: Manner) -> Any:
+def captures_table(certified: Certified, worked: Worked, manner: Manner) -> Any:
     """Every capture that counts, with the mean of its raw counts and what the fit leaves."""
     head = ["", "what", "", "stroke", "angle", "kg", "load", "degc", "mean", "spread"]
     head += ["samples", "reads", "residual"]
     rows: list[Row] = [[name and manner.say(name) for name in head]]
     residuals = () if worked.fit is None else worked.fit.residuals
-    told_nm = {one.capture: (one.reading_nm, one.residual_nm) for one in residuals}
-    told_nm |= {one.capture: (one.reading_nm, one.difference_nm) for one in worked.verifications}
-    setup = told.evaluated.told.setup
-    for one in told.evaluated.told.captures:
-        reading, left = told_nm.get(one.number, (None, None))
+    readings_nm = {one.capture: (one.reading_nm, one.residual_nm) for one in residuals}
+    readings_nm |= {
+        one.capture: (one.reading_nm, one.difference_nm) for one in worked.verifications
+    }
+    setup = certified.evaluated.content.setup
+    for one in certified.evaluated.content.captures:
+        reading, left = readings_nm.get(one.number, (None, None))
         state = one.state
         rows.append(
             [

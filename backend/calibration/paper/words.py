@@ -193,10 +193,12 @@ def meaning(language: str, code: str) -> str:
     return MEANING_ZH[code] if language == "zh" else MEANING[code]
 
 
-def cause(language: str, told: Cause) -> str:
+def cause(language: str, reason: Cause) -> str:
     """Why it is no pass. A cause without words of the language is told by its own sentence."""
-    words = CAUSES_ZH.get(told.code) if language == "zh" else None
+    words = CAUSES_ZH.get(reason.code) if language == "zh" else None
     if words is None:
-        return f"{told.sentence[:1].upper()}{told.sentence[1:]}."
-    figure = "—" if told.figure is None else f"{told.figure:.2f}"
-    return words.format(figure=figure, allowed="—" if told.allowed is None else f"{told.allowed:g}")
+        return f"{reason.sentence[:1].upper()}{reason.sentence[1:]}."
+    figure = "—" if reason.figure is None else f"{reason.figure:.2f}"
+    return words.format(
+        figure=figure, allowed="—" if reason.allowed is None else f"{reason.allowed:g}"
+    )

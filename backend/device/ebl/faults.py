@@ -11,7 +11,7 @@ from firmware_protocol._generated import FAULTS, Severity
 from firmware_protocol.spelling import word_of
 
 FAULT_BITS = 32
-KNOWN = {fault.bit: word_of(fault.name) for fault in FAULTS}
+NAME_OF_BIT = {fault.bit: word_of(fault.name) for fault in FAULTS}
 FAULT_BY_WORD = {word_of(fault.name): fault for fault in FAULTS}
 
 UNKNOWN = "This Spindle does not know this fault; the unit's firmware is newer."
@@ -19,7 +19,7 @@ UNKNOWN = "This Spindle does not know this fault; the unit's firmware is newer."
 
 def fault_name(bit: int) -> str:
     """The fault of a bit; one of a newer firmware is `fault_n`."""
-    return KNOWN.get(bit) or f"fault_{bit}"
+    return NAME_OF_BIT.get(bit) or f"fault_{bit}"
 
 
 def fault_names(flags: int) -> tuple[str, ...]:

@@ -24,7 +24,7 @@ from backend.device.ebl.faults import described
 from backend.device.ebl.operations import config_outcome, config_trial, live_set, ride_logs
 from backend.device.ebl.operations.config_transaction import read_bank, read_config, write_config
 from backend.device.ebl.operations.fault_frames import clear_faults, fault_frames, settings_are_lost
-from backend.device.ebl.operations.live_values import CHANNEL_SPECS, ask_values
+from backend.device.ebl.operations.live_values import CHANNEL_SPECS, read_values
 from backend.device.ebl.operations.parameters import TABLE
 from backend.device.ebl.operations.simulation import simulation_get, simulation_set
 from backend.device.ebl.operations.unlock import Token, token_from
@@ -37,7 +37,7 @@ from backend.device.ebl.session.stream_receiver import StreamPlan
 from backend.device.ebl.session.trial_status import trial_status
 from backend.device.faults import Fault
 from backend.device.live_values import Snapshot
-from backend.device.ride_logs import LogPieces, RideLog, RideLogs
+from backend.device.ride_logs import LogSegments, RideLog, RideLogs
 from backend.device.states import LinkState
 from backend.device.unit import Unit
 from backend.device.wear_counters import WearCounters
@@ -96,7 +96,7 @@ class EblUnit(Unit):
         return CHANNEL_SPECS
 
     def values(self) -> Snapshot:
-        return self._run(ask_values())
+        return self._run(read_values())
 
     # ------------------------------------------------------------------ configuration
 
@@ -162,7 +162,7 @@ class EblUnit(Unit):
     def faults(self) -> Sequence[Fault]:
         return self._run(fault_frames())
 
-    def faults_told(self) -> Sequence[Fault]:
+    def faults_reported(self) -> Sequence[Fault]:
         return [described(name) for name in self.status().faults_active]
 
     def clear_faults(self) -> Sequence[Fault]:
@@ -185,7 +185,7 @@ class EblUnit(Unit):
         return self._run(ride_logs.log_crc(log, length), LOG_CHECK_S)
 
     @contextmanager
-    def fetch_log(self, log: RideLog, have: int) -> Iterator[LogPieces]:
+    def fetch_log(self, log: RideLog, have: int) -> Iterator[LogSegments]:
         receiver = LogReceiver(next(self._log_sessions) % LOG_SESSIONS + 1, time.monotonic())
         self.driver.between_turns(lambda: self._session.receive_log(receiver))
         try:

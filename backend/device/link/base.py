@@ -1,6 +1,6 @@
 """What every transport offers: bytes that have arrived, bytes to send, an end.
 
-Nothing here waits: one thread per port reads late and in bulk (platform page, G), so a link that
+Nothing here waits: one thread per port reads late and in bulk, so a link that
 blocked would hold up the thread's timers.
 """
 
@@ -14,10 +14,10 @@ READ_BYTES_MAX = 65536
 
 
 class Link(Protocol):
-    """An open way to one drive unit.
+    """An open connection to one drive unit.
 
     url: what it was opened with. bits_per_second: the line's rate now, or None where there is no
-    line (pseudo-terminal, tcp) and a frame's travel time is nothing. bits_per_second_wanted: the
+    line (pseudo-terminal, tcp) and a frame's travel time is nothing. bits_per_second_requested: the
     rate to ask the unit for, None for the fastest it offers.
     """
 
@@ -28,7 +28,7 @@ class Link(Protocol):
     def bits_per_second(self) -> float | None: ...
 
     @property
-    def bits_per_second_wanted(self) -> int | None: ...
+    def bits_per_second_requested(self) -> int | None: ...
 
     def set_baudrate(self, bits_per_second: int) -> None:
         """Run the line at this rate from now on. Raises LinkError when the port cannot."""

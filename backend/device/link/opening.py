@@ -17,6 +17,7 @@ from pathlib import Path
 from urllib.parse import parse_qs, urlsplit
 
 from backend.device.link.base import Link
+from backend.device.link.port_errors import another_adapter
 from backend.device.link.ports import (
     DeviceKind,
     device_with_usb_serial,
@@ -26,7 +27,6 @@ from backend.device.link.ports import (
 from backend.device.link.serial_port import SerialPort, baud_of
 from backend.device.link.simulated import SimulatedAddress, SimulatedLink
 from backend.device.link.socket_link import SocketLink
-from backend.device.link.trouble import another_adapter
 from backend.errors import InvalidRequest
 
 
@@ -70,16 +70,16 @@ class Opener:
         self._flash_folder = flash_folder
         self._kind = kind_of(url)
         self._usb_serial_number: str | None = None
-        self._given_up = threading.Event()
+        self._cancelled = threading.Event()
 
     def give_up(self) -> None:
         """Let an `open` that waits for a simulated unit's start fail soon; for any thread."""
-        self._given_up.set()
+        self._cancelled.set()
 
     def open(self) -> Link:
         """Open the link; raises LinkError with cause and remedy."""
         if self._kind == "simulated":
-            return SimulatedLink(self.url, self._flash_folder, given_up=self._given_up)
+            return SimulatedLink(self.url, self._flash_folder, cancelled=self._cancelled)
         if self._kind == "socket":
             host, port = _host_and_port(self.url)
             return SocketLink(host, port, url=self.url)
@@ -88,7 +88,7 @@ class Opener:
             self._present_name(name),
             self.url,
             has_line=baud is not None or not _is_pseudo_terminal(name),
-            wanted=baud,
+            requested=baud,
         )
         if self._usb_serial_number is None:
             self._usb_serial_number = usb_serial_of(name)
@@ -119,8 +119,8 @@ def _host_and_port(url: str) -> tuple[str, int]:
 
 def _name_and_baud(url: str) -> tuple[str, int | None]:
     name, _, query = url.partition("?")
-    given = parse_qs(query).get("baud", [None])[-1]
-    return name, None if given is None else baud_of(url, given)
+    baud = parse_qs(query).get("baud", [None])[-1]
+    return name, None if baud is None else baud_of(url, baud)
 
 
 def _is_pseudo_terminal(name: str) -> bool:

@@ -52,9 +52,9 @@ def is_character_device(name: str) -> bool | None:
 
 def list_ports() -> list[Port]:
     """Every serial port of this machine, without opening any, and the simulated unit."""
-    found = sorted(pyserial_ports.comports(), key=lambda port: str(port.device))
+    ports = sorted(pyserial_ports.comports(), key=lambda port: str(port.device))
     holders = _open_devices()
-    return [_describe(port, holders) for port in found] + [SIMULATED]
+    return [_describe(port, holders) for port in ports] + [SIMULATED]
 
 
 def device_with_usb_serial(number: str) -> str | None:

@@ -7,7 +7,7 @@ import os
 import serial
 
 from backend.device.link.base import READ_BYTES_MAX
-from backend.device.link.trouble import cannot_open, vanished
+from backend.device.link.port_errors import cannot_open, vanished
 from backend.errors import InvalidRequest, LinkError
 
 BAUD_DEFAULT = 115200
@@ -17,29 +17,29 @@ BAUD_MIN, BAUD_MAX = 300, 4_000_000
 WRITE_TIMEOUT_S = 0.2
 
 
-def baud_of(url: str, given: str) -> int:
+def baud_of(url: str, text: str) -> int:
     """A rate as it stands in `url`; raises InvalidRequest for what is none."""
-    if not given.isdigit() or not BAUD_MIN <= int(given) <= BAUD_MAX:
+    if not text.isdigit() or not BAUD_MIN <= int(text) <= BAUD_MAX:
         raise InvalidRequest(f"`{url}`: baud is a whole number from {BAUD_MIN} to {BAUD_MAX}.")
-    return int(given)
+    return int(text)
 
 
 class SerialPort:
     """An open serial port or pseudo-terminal.
 
     name: `/dev/ttyUSB0`, `COM3`, or a pseudo-terminal's path. has_line: False where no wire limits
-    the speed. wanted: the rate to ask the unit for, None for the fastest it offers; the port opens
+    the speed. requested: the rate to ask the unit for, None for its fastest; the port opens
     at 115200, where every unit starts. Raises LinkError with cause and remedy when it does not
     open.
     """
 
     def __init__(
-        self, name: str, url: str | None = None, has_line: bool = True, wanted: int | None = None
+        self, name: str, url: str | None = None, has_line: bool = True, requested: int | None = None
     ) -> None:
         self._name = name
         self._url = url or name
         self._bits_per_second = float(BAUD_DEFAULT) if has_line else None
-        self._wanted = wanted
+        self._requested = requested
         self._port = serial.Serial()
         self._port.port = name
         self._port.baudrate = BAUD_DEFAULT
@@ -66,9 +66,9 @@ class SerialPort:
         return self._bits_per_second
 
     @property
-    def bits_per_second_wanted(self) -> int | None:
+    def bits_per_second_requested(self) -> int | None:
         """The rate to ask the unit for, None for the fastest it offers."""
-        return self._wanted
+        return self._requested
 
     def set_baudrate(self, bits_per_second: int) -> None:
         """Run the line at this rate from now on. Raises LinkError when the port cannot."""
@@ -87,8 +87,10 @@ class SerialPort:
             return bytes(self._port.read(bytes_max))
         except (OSError, TypeError) as error:
             # Without a number it is pyserial's guess about a port that is readable and empty.
-            told = getattr(error, "errno", None) is not None
-            raise vanished(self._name, error if told else "unplugged or without power") from error
+            has_errno = getattr(error, "errno", None) is not None
+            raise vanished(
+                self._name, error if has_errno else "unplugged or without power"
+            ) from error
 
     def write(self, data: bytes) -> int:
         """Send what the port takes now and return how many bytes that was."""

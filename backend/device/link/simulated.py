@@ -28,7 +28,7 @@ from backend.errors import InvalidRequest, LinkError
 # A cold start of Python and numpy on a loaded machine takes about 2 s.
 READY_TIMEOUT_S = 15.0
 STOP_TIMEOUT_S = 2.0
-LOOK_EVERY_S = 0.1
+POLL_S = 0.1
 NAME_DEFAULT = "unit"
 SETTINGS = ("seed", "speed", "clock", "scenario", "flash", "market", "unlock_key", "baud", "sensor")
 CLOCKS = ("real", "virtual")
@@ -141,7 +141,7 @@ class SimulatedLink:
         url: str,
         flash_folder: Path | None = None,
         ready_timeout_s: float = READY_TIMEOUT_S,
-        given_up: threading.Event | None = None,
+        cancelled: threading.Event | None = None,
     ) -> None:
         if os.name != "posix":
             raise LinkError(
@@ -153,7 +153,7 @@ class SimulatedLink:
             flash_folder.mkdir(parents=True, exist_ok=True)
             address = replace(address, flash=str(flash_folder / address.memory_name))
         self._url = url
-        self._given_up = given_up or threading.Event()
+        self._cancelled = cancelled or threading.Event()
         self._folder = Path(tempfile.mkdtemp(prefix="spindle-sim-"))
         self._child = self._start(address.command(self._folder / "port"))
         # In memory: a full disk would take none of the words that say so.
@@ -179,9 +179,9 @@ class SimulatedLink:
         return self._port.bits_per_second
 
     @property
-    def bits_per_second_wanted(self) -> int | None:
+    def bits_per_second_requested(self) -> int | None:
         """What `baud` asks for."""
-        return self._port.bits_per_second_wanted
+        return self._port.bits_per_second_requested
 
     def set_baudrate(self, bits_per_second: int) -> None:
         """Run the line at this rate from now on."""
@@ -214,13 +214,13 @@ class SimulatedLink:
             yield
         except LinkError as error:
             with contextlib.suppress(subprocess.TimeoutExpired):
-                self._child.wait(LOOK_EVERY_S)
+                self._child.wait(POLL_S)
             code = self._child.returncode
             if not code:
                 raise
             raise LinkError(
                 f"{self._url}: the simulated unit ended with code {code}: "
-                f"{self._said() or 'it said nothing'}",
+                f"{self._complaint() or 'it said nothing'}",
                 code="simulator_failed",
             ) from error
 
@@ -248,10 +248,10 @@ class SimulatedLink:
         until_s = time.monotonic() + timeout_s
         while True:
             try:
-                line = lines.get(timeout=LOOK_EVERY_S)
+                line = lines.get(timeout=POLL_S)
                 break
             except queue.Empty:
-                if self._given_up.is_set():
+                if self._cancelled.is_set():
                     raise self._not_ready("nobody waits for it any more") from None
                 if time.monotonic() >= until_s:
                     raise self._not_ready(f"not ready after {timeout_s:g} s") from None
@@ -265,11 +265,11 @@ class SimulatedLink:
     def _not_ready(self, cause: str) -> LinkError:
         return LinkError(
             f"{self._url}: the simulated unit did not start ({cause}): "
-            f"{self._said() or 'it said nothing'}",
+            f"{self._complaint() or 'it said nothing'}",
             code="simulator_failed",
         )
 
-    def _said(self) -> str:
+    def _complaint(self) -> str:
         """The last that the child complained of."""
         if self._child.poll() is not None:
             self._listener.join(STOP_TIMEOUT_S)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import socket
 
 from backend.device.link.base import READ_BYTES_MAX
-from backend.device.link.trouble import cannot_open, vanished
+from backend.device.link.port_errors import cannot_open, vanished
 
 # A host that does not answer must not hold up the unit's thread for longer.
 CONNECT_TIMEOUT_S = 2.0
@@ -35,7 +35,7 @@ class SocketLink:
         return None
 
     @property
-    def bits_per_second_wanted(self) -> int | None:
+    def bits_per_second_requested(self) -> int | None:
         """None: there is nothing to ask for."""
         return None
 

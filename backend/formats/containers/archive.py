@@ -67,7 +67,7 @@ class Left:
 
     titles: Titles
     left_alone: int
-    trouble: Outcome | None = None
+    error: Outcome | None = None
 
 
 class Bounds:
@@ -82,22 +82,22 @@ class Bounds:
         if info.flag_bits & ENCRYPTED_FLAG:
             raise Refused("encrypted", "It is locked with a password: unpack it and send the file.")
         # Grows in its place and gives its bytes away: a file within is never held twice.
-        found = io.BytesIO()
+        content = io.BytesIO()
         with archive.open(info) as file:
             while piece := file.read(PIECE_BYTES):
-                found.write(piece)
+                content.write(piece)
                 self.total += len(piece)
                 packed = max(info.compress_size, 1)
-                if found.tell() > max(RATIO_FROM_BYTES, RATIO_MAX * packed):
+                if content.tell() > max(RATIO_FROM_BYTES, RATIO_MAX * packed):
                     raise Refused(
                         "expands_too_much",
                         f"It becomes more than {RATIO_MAX} times as large as it is packed.",
                     )
-                if found.tell() > size_max:
+                if content.tell() > size_max:
                     raise Refused("too_large", f"It has more than {size_max} bytes.")
                 if self.total > TOTAL_BYTES_MAX:
                     raise Refused("too_large", "The archive holds more than can be read at once.")
-        return found.getvalue()
+        return content.getvalue()
 
 
 class Refused(Exception):
@@ -124,8 +124,8 @@ def entries(source: Path | IO[bytes]) -> Iterator[Entry | Left]:
         try:
             archive = opened_archive(file)
         except DAMAGE as error:
-            told = f"The archive cannot be opened: {error}. Send it again."
-            raise BrokenArchive(rejected("container_damaged", told)) from None
+            sentence = f"The archive cannot be opened: {error}. Send it again."
+            raise BrokenArchive(rejected("container_damaged", sentence)) from None
         infos = [info for info in archive.infolist() if not is_folder(info)]
         if len(infos) > ENTRIES_MAX:
             raise BrokenArchive(
@@ -133,12 +133,12 @@ def entries(source: Path | IO[bytes]) -> Iterator[Entry | Left]:
             )
         titles = titles_of(archive, infos, bounds)
         alone = left_alone([info.filename for info in infos])
-        seen: set[str] = set()
+        names_read: set[str] = set()
         for info in infos:
             if info.filename not in alone:
-                yield from opened(archive, info, bounds, seen)
-        trouble = rejected("truncated", CUT) if isinstance(archive, Salvaged) else None
-        yield Left(titles, len(alone), trouble)
+                yield from opened(archive, info, bounds, names_read)
+        error_at_end = rejected("truncated", CUT) if isinstance(archive, Salvaged) else None
+        yield Left(titles, len(alone), error_at_end)
 
 
 def opened_archive(file: IO[bytes]) -> zipfile.ZipFile:
@@ -182,11 +182,11 @@ def opened(
     archive: zipfile.ZipFile,
     info: zipfile.ZipInfo,
     bounds: Bounds,
-    seen: set[str],
+    names_read: set[str],
     within: str = "",
 ) -> Iterator[Entry]:
     """A file of an archive, or those of the archive that it is. within: name of that archive."""
-    name = unlike(f"{within}{info.filename or 'unnamed'}"[-200:], seen)
+    name = unlike(f"{within}{info.filename or 'unnamed'}"[-200:], names_read)
     bounds.count += 1
     if bounds.count > ENTRIES_MAX:
         yield Entry(name, info.file_size, None, "too_large", f"More than {ENTRIES_MAX} files.")
@@ -201,27 +201,29 @@ def opened(
         yield Entry(name, info.file_size, None, "container_damaged", detail)
     else:
         if is_archive(data):
-            yield from nested(data, name, bounds, seen, deep=bool(within))
+            yield from nested(data, name, bounds, names_read, deep=bool(within))
         else:
             yield judged(name, data)
 
 
-def nested(data: bytes, name: str, bounds: Bounds, seen: set[str], deep: bool) -> Iterator[Entry]:
+def nested(
+    data: bytes, name: str, bounds: Bounds, names_read: set[str], deep: bool
+) -> Iterator[Entry]:
     """The files of an archive within an archive."""
     if deep:
-        told = "An archive within an archive within an archive is not opened: unpack it first."
-        yield Entry(name, len(data), None, "nested_too_deep", told)
+        sentence = "An archive within an archive within an archive is not opened: unpack it first."
+        yield Entry(name, len(data), None, "nested_too_deep", sentence)
         return
     try:
         inner = opened_archive(io.BytesIO(data))
     except DAMAGE as error:
-        told = f"The archive within cannot be opened: {error}."
-        yield Entry(name, len(data), None, "container_damaged", told)
+        sentence = f"The archive within cannot be opened: {error}."
+        yield Entry(name, len(data), None, "container_damaged", sentence)
         return
     with inner:
         for info in inner.infolist():
             if not is_folder(info):
-                yield from opened(inner, info, bounds, seen, within=f"{name}/")
+                yield from opened(inner, info, bounds, names_read, within=f"{name}/")
         if isinstance(inner, Salvaged):
             yield Entry(name, len(data), None, "truncated", CUT)
 
@@ -236,11 +238,11 @@ def judged(name: str, data: bytes) -> Entry:
     return Entry(name, len(data), None, refused.code, refused.detail)
 
 
-def unlike(name: str, seen: set[str]) -> str:
+def unlike(name: str, names_read: set[str]) -> str:
     """The name, with a number where another file of the container has it too."""
     free, number = name, 1
-    while free in seen:
+    while free in names_read:
         number += 1
         free = f"{name} ({number})"
-    seen.add(free)
+    names_read.add(free)
     return free

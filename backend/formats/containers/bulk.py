@@ -51,7 +51,7 @@ def strava(data: bytes, table: str) -> dict[str, tuple[str, str]]:
     """`activities.csv` -> title and description by the name of the file within the archive."""
     root = table[: -len(STRAVA_TABLE)]
     rows = csv.reader(io.StringIO(data.decode("utf-8-sig", errors="replace")))
-    found: dict[str, tuple[str, str]] = {}
+    titles: dict[str, tuple[str, str]] = {}
     try:
         heading = next(rows, [])
         title, description = columns_of(heading)
@@ -59,11 +59,11 @@ def strava(data: bytes, table: str) -> dict[str, tuple[str, str]]:
             name = next((cell for cell in row if cell.startswith(STRAVA_FOLDER)), None)
             if name is not None and len(row) > title:
                 text = row[description] if description and len(row) > description else ""
-                found[root + name] = (row[title][:TITLE_LENGTH_MAX], text[:TEXT_LENGTH_MAX])
+                titles[root + name] = (row[title][:TITLE_LENGTH_MAX], text[:TEXT_LENGTH_MAX])
     except csv.Error:
         # What was read of the table before stays.
         pass
-    return found
+    return titles
 
 
 def columns_of(heading: Sequence[str]) -> tuple[int, int | None]:
@@ -87,12 +87,12 @@ def summaries(data: bytes) -> list[tuple[int, str, str]]:
         parts = json.loads(data)
     except (ValueError, RecursionError):
         return []
-    found = []
+    titles = []
     for part in parts if isinstance(parts, list) else []:
         exported = part.get("summarizedActivitiesExport") if isinstance(part, dict) else None
-        told = map(summary, exported if isinstance(exported, list) else [])
-        found += [one for one in told if one is not None]
-    return found
+        summary_of_each = map(summary, exported if isinstance(exported, list) else [])
+        titles += [one for one in summary_of_each if one is not None]
+    return titles
 
 
 def summary(one: Any) -> tuple[int, str, str] | None:

@@ -22,32 +22,32 @@ HEADER = struct.Struct("<I")
 class Frame(NamedTuple):
     """A frame in pieces, so that a file within is not copied. last: nothing comes behind it."""
 
-    pieces: tuple[bytes, ...]
+    parts: tuple[bytes, ...]
     last: bool = False
 
 
 def frames(path: Path) -> Iterator[Frame]:
     """An archive -> its files, then what is left; or why nothing can be read."""
     try:
-        for told in entries(path):
-            yield encode_entry(told) if isinstance(told, Entry) else encode_left(told)
+        for item in entries(path):
+            yield encode_entry(item) if isinstance(item, Entry) else encode_left(item)
     except BrokenArchive as broken:
         yield encode_broken(broken)
 
 
 def encode_entry(entry: Entry) -> Frame:
     """A file within, or why it is refused."""
-    told = {
+    header = {
         field.name: getattr(entry, field.name) for field in fields(Entry) if field.name != "data"
     }
-    return framed({"entry": told, "has_data": entry.data is not None}, entry.data or b"")
+    return framed({"entry": header, "has_data": entry.data is not None}, entry.data or b"")
 
 
 def encode_left(left: Left) -> Frame:
     """What is known at the end."""
-    trouble = None if left.trouble is None else [left.trouble.code, left.trouble.detail]
-    told = {"titles": asdict(left.titles), "left_alone": left.left_alone, "trouble": trouble}
-    return framed({"left": told}, last=True)
+    error = None if left.error is None else [left.error.code, left.error.detail]
+    header = {"titles": asdict(left.titles), "left_alone": left.left_alone, "trouble": error}
+    return framed({"left": header}, last=True)
 
 
 def encode_broken(broken: BrokenArchive) -> Frame:
@@ -72,8 +72,12 @@ def decode_frame(frame: bytes) -> Entry | Left:
             titles = header["left"]["titles"]
             by_name = {str(key): (str(a), str(b)) for key, (a, b) in titles["by_name"].items()}
             by_start = tuple((int(us), str(a), str(b)) for us, a, b in titles["by_start_us"])
-            trouble = header["left"]["trouble"]
-            outcome = None if trouble is None else rejected(str(trouble[0]), str(trouble[1]))
+            error_fields = header["left"]["trouble"]
+            outcome = (
+                None
+                if error_fields is None
+                else rejected(str(error_fields[0]), str(error_fields[1]))
+            )
             return Left(Titles(by_name, by_start), int(header["left"]["left_alone"]), outcome)
         data = frame[HEADER.size + length :] if header["has_data"] else None
         return Entry(**header["entry"], data=data)

@@ -20,48 +20,48 @@ class TooLarge(Exception):
 
 @dataclass(frozen=True)
 class Inflated:
-    """What came out. trouble: a sentence where it is not all that went in."""
+    """What came out. error: a sentence where it is not all that went in."""
 
     data: bytes
-    trouble: str | None = None
+    error: str | None = None
 
 
 def inflate(data: bytes) -> Inflated:
     """The bytes within a gzip file of one or several members. Raises TooLarge."""
-    found = bytearray()
+    inflated = bytearray()
     left = data
     while left.startswith(GZIP):
         one = zlib.decompressobj(GZIP_BITS)
         try:
-            found += one.decompress(left, INFLATED_BYTES_MAX + 1 - len(found))
+            inflated += one.decompress(left, INFLATED_BYTES_MAX + 1 - len(inflated))
         except zlib.error as error:
-            found += salvaged(left, INFLATED_BYTES_MAX - len(found))
-            return Inflated(bytes(found), f"The gzip file is damaged: {error}.")
-        if len(found) > INFLATED_BYTES_MAX:
+            inflated += salvaged(left, INFLATED_BYTES_MAX - len(inflated))
+            return Inflated(bytes(inflated), f"The gzip file is damaged: {error}.")
+        if len(inflated) > INFLATED_BYTES_MAX:
             raise TooLarge
         if not one.eof:
-            return Inflated(bytes(found), "The gzip file ends too early.")
+            return Inflated(bytes(inflated), "The gzip file ends too early.")
         left = one.unused_data
-    return Inflated(bytes(found))
+    return Inflated(bytes(inflated))
 
 
 def salvaged(data: bytes, size_max: int) -> bytes:
     """What comes out before the damage. Raises TooLarge."""
     one = zlib.decompressobj(GZIP_BITS)
-    found = bytearray()
+    inflated = bytearray()
     for start in range(0, len(data), PIECE_BYTES):
         piece, before = data[start : start + PIECE_BYTES], one.copy()
         try:
-            found += one.decompress(piece)
+            inflated += one.decompress(piece)
         except zlib.error:
             # What the piece with the damage gave before it: byte by byte.
             with suppress(zlib.error):
                 for at in range(len(piece)):
-                    found += before.decompress(piece[at : at + 1])
+                    inflated += before.decompress(piece[at : at + 1])
             break
-        if len(found) > size_max:
+        if len(inflated) > size_max:
             raise TooLarge
-    return bytes(found)
+    return bytes(inflated)
 
 
 def inflated_head(head: bytes, size: int) -> bytes:

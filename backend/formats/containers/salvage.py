@@ -41,7 +41,7 @@ class Salvaged(zipfile.ZipFile):
     def __init__(self, file: IO[bytes]) -> None:
         """Raises BadZipFile where no file is whole."""
         super().__init__(io.BytesIO(EMPTY))
-        for info in found_in(file):
+        for info in complete_files(file):
             self.filelist.append(info)
             self.NameToInfo[info.filename] = info
         if not self.filelist:
@@ -49,17 +49,17 @@ class Salvaged(zipfile.ZipFile):
         self.fp = file
 
 
-def found_in(file: IO[bytes]) -> Iterator[zipfile.ZipInfo]:
+def complete_files(file: IO[bytes]) -> Iterator[zipfile.ZipInfo]:
     """Whole files in their order."""
     length = file.seek(0, io.SEEK_END)
     at, count = next_mark(file, 0, HEADER_MARK), 0
     while at is not None and count < FILES_MAX:
-        found = whole_file(file, at, length)
-        if found is None:
+        file_and_end = complete_file(file, at, length)
+        if file_and_end is None:
             # It may be an archive that was cut: what is whole in it counts, too.
             at = next_mark(file, at + 1, HEADER_MARK)
             continue
-        info, end = found
+        info, end = file_and_end
         count += 1
         yield info
         at = next_mark(file, end, HEADER_MARK)
@@ -77,7 +77,7 @@ def next_mark(file: IO[bytes], at: int, mark: bytes) -> int | None:
     return None
 
 
-def whole_file(file: IO[bytes], at: int, length: int) -> tuple[zipfile.ZipInfo, int] | None:
+def complete_file(file: IO[bytes], at: int, length: int) -> tuple[zipfile.ZipInfo, int] | None:
     """A file by its header at a place, and where it ends; None where it is not whole."""
     file.seek(at)
     head = file.read(HEADER.size)
@@ -96,11 +96,11 @@ def whole_file(file: IO[bytes], at: int, length: int) -> tuple[zipfile.ZipInfo, 
     if not name or sizes is None or sizes.end > length:
         return None
     try:
-        told = name.decode("utf-8" if flags & IN_UTF8 else "cp437")
+        file_name = name.decode("utf-8" if flags & IN_UTF8 else "cp437")
     except UnicodeDecodeError:
         return None
-    info = zipfile.ZipInfo(told)
-    info.orig_filename = told
+    info = zipfile.ZipInfo(file_name)
+    info.orig_filename = file_name
     info.extract_version, info.flag_bits, info.compress_type = needs, flags, method
     info.CRC, info.compress_size, info.file_size = sizes.crc, sizes.packed, sizes.size
     info.header_offset = at
@@ -152,12 +152,12 @@ def end_of_deflated(file: IO[bytes], begin: int) -> int | None:
 def descriptor_at(file: IO[bytes], at: int, packed: int, length: int) -> Sizes | None:
     """The descriptor behind so many packed bytes: with or without a mark, sizes of 4 or 8 bytes."""
     file.seek(at)
-    told = file.read(24)
-    marked = 4 if told.startswith(DESCRIPTOR_MARK) else 0
+    data = file.read(24)
+    marked = 4 if data.startswith(DESCRIPTOR_MARK) else 0
     for form in ("<III", "<IQQ"):
         end = marked + struct.calcsize(form)
-        if len(told) >= end and at + end <= length:
-            crc, stated, size = struct.unpack_from(form, told, marked)
-            if stated == packed:
+        if len(data) >= end and at + end <= length:
+            crc, declared, size = struct.unpack_from(form, data, marked)
+            if declared == packed:
                 return Sizes(crc, packed, size, at + end)
     return None

@@ -57,20 +57,20 @@ def shown_rows(rows: RideRows, blur_m: float, secret: bytes) -> Mask | None:
         return None
     latitude_deg = specs[LATITUDE].to_values(rows.counts[LATITUDE])
     longitude_deg = specs[LONGITUDE].to_values(rows.counts[LONGITUDE])
-    there = np.isfinite(latitude_deg) & np.isfinite(longitude_deg)
-    known = np.flatnonzero(there)
-    if not len(known):
+    valid = np.isfinite(latitude_deg) & np.isfinite(longitude_deg)
+    positioned = np.flatnonzero(valid)
+    if not len(positioned):
         return None
-    hidden = np.zeros(len(known), dtype=bool)
-    for end in (known[0], known[-1]):
+    hidden = np.zeros(len(positioned), dtype=bool)
+    for end in (positioned[0], positioned[-1]):
         middle = moved(float(latitude_deg[end]), float(longitude_deg[end]), blur_m, secret)
-        away_m = great_circle_m(*middle, latitude_deg[known], longitude_deg[known])
+        away_m = great_circle_m(*middle, latitude_deg[positioned], longitude_deg[positioned])
         hidden |= away_m <= (1 + MOVED) * blur_m
     # A row without a position is as hidden as the positions before and behind it.
-    at = np.searchsorted(known, np.arange(len(there)))
+    at = np.searchsorted(positioned, np.arange(len(valid)))
     walled = np.concatenate(([True], hidden, [True]))
     shown: Mask = ~(walled[at] | walled[at + 1])
-    shown[known] = ~hidden
+    shown[positioned] = ~hidden
     return shown
 
 
@@ -81,8 +81,8 @@ def moved(
     side_deg = math.degrees(NEIGHBOURHOOD * blur_m / EARTH_M)
     row = math.floor(latitude_deg / side_deg)
     narrow = max(0.01, math.cos(math.radians(row * side_deg)))
-    told = f"{blur_m:.3f} {row} {math.floor(longitude_deg * narrow / side_deg)}".encode()
-    drawn = hmac.new(secret, told, hashlib.sha256).digest()
+    key = f"{blur_m:.3f} {row} {math.floor(longitude_deg * narrow / side_deg)}".encode()
+    drawn = hmac.new(secret, key, hashlib.sha256).digest()
     turn = 2 * math.pi * int.from_bytes(drawn[:4], "big") / 2**32
     # The root spreads the middles evenly over the disc.
     step_m = MOVED * blur_m * math.sqrt(int.from_bytes(drawn[4:8], "big") / 2**32)
@@ -98,39 +98,41 @@ def shown_ride(ride: Ride, rows: RideRows, seconds: Values, shown: Mask) -> Show
 
     rows: of channels whose meaning is known, recorded and derived. seconds: how long each holds.
     """
-    kept = np.flatnonzero(shown)
-    begun_us = int(rows.times_us[kept[0]])
-    counts = {name: column[kept] for name, column in rows.counts.items()}
+    shown_rows_at = np.flatnonzero(shown)
+    begun_us = int(rows.times_us[shown_rows_at[0]])
+    counts = {name: column[shown_rows_at] for name, column in rows.counts.items()}
     if DISTANCE in counts:
         spec = next(channel for channel in rows.channels if channel.name == DISTANCE)
         odometer = spec.to_values(counts[DISTANCE])
-        counts[DISTANCE] = spec.to_counts(joined(odometer, np.diff(kept, prepend=kept[0]) > 1))
-    times_us = rows.times_us[kept] - begun_us
+        counts[DISTANCE] = spec.to_counts(
+            joined(odometer, np.diff(shown_rows_at, prepend=shown_rows_at[0]) > 1)
+        )
+    times_us = rows.times_us[shown_rows_at] - begun_us
     values = {c.name: c.to_values(counts[c.name]) for c in rows.channels}
     recorded = tuple(channel for channel in rows.channels if channel in ride.channels)
-    told = replace(
+    edited = replace(
         ride,
         name="",
         notes="",
         tags=(),
         place=None,
         started_us=ride.started_us + begun_us,
-        row_count=len(kept),
+        row_count=len(shown_rows_at),
         channels=recorded,
         derived=tuple(channel for channel in rows.channels if channel not in recorded),
         gaps=(),
         events=(),
-        summary=summarise(values, times_us, ride.period_us, seconds[kept]),
+        summary=summarise(values, times_us, ride.period_us, seconds[shown_rows_at]),
     )
-    return ShownRide(told, RideRows(recorded, times_us, counts), values)
+    return ShownRide(edited, RideRows(recorded, times_us, counts), values)
 
 
 def joined(distance_m: Values, begins: Mask) -> Values:
     """An odometer (n,) from 0 on; a hidden stretch before each of `begins` adds nothing."""
-    there = np.flatnonzero(np.isfinite(distance_m))
-    stretch = np.cumsum(begins)[there]
-    steps = np.diff(distance_m[there], prepend=distance_m[there[:1]])
+    valid = np.flatnonzero(np.isfinite(distance_m))
+    stretch = np.cumsum(begins)[valid]
+    steps = np.diff(distance_m[valid], prepend=distance_m[valid[:1]])
     steps[np.diff(stretch, prepend=stretch[:1]) > 0] = 0.0
-    found: Values = np.full(len(distance_m), np.nan)
-    found[there] = np.cumsum(steps)
-    return found
+    distances: Values = np.full(len(distance_m), np.nan)
+    distances[valid] = np.cumsum(steps)
+    return distances

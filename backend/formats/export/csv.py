@@ -8,12 +8,12 @@ import numpy as np
 
 from backend.core.channels import ChannelSpec, Values
 from backend.core.ride import Ride, RideRows, iso_utc
-from backend.formats.export.names import told_names
+from backend.formats.export.names import export_names
 
 
 def csv_chunks(ride: Ride, rows_of_ride: Iterable[RideRows]) -> Iterator[bytes]:
     """The ride's rows as lines. rows_of_ride: of all its recorded channels, in order."""
-    header = ["time_utc", "t_s", *told_names(ride).values()]
+    header = ["time_utc", "t_s", *export_names(ride).values()]
     yield (",".join(header) + "\r\n").encode()
     for rows in rows_of_ride:
         seconds = (rows.times_us / 1e6).tolist()

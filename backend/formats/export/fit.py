@@ -100,7 +100,7 @@ def fit_file(ride: Ride, ridden: BySecond) -> bytes:
     ridden: of those of CHANNELS the ride has, at least one second. Raises nothing for any values:
     what a field cannot hold is missing in it.
     """
-    own = {name: told for name, told in DEVELOPER.items() if name in ridden.values}
+    own = {name: field for name, field in DEVELOPER.items() if name in ridden.values}
     if ride.motor_torque_meaning == DEMANDED and MOTOR_TORQUE in own:
         own[MOTOR_TORQUE] = DEVELOPER["motor_torque_demanded_nm"]
     start_s, end_s = int(ridden.unix_s[0]), int(ridden.unix_s[-1])
@@ -120,14 +120,14 @@ def descriptions(own: dict[str, tuple[str, str]]) -> list[bytes]:
     """What the developer fields mean."""
     if not own:
         return []
-    told = [defined(DEVELOPER_DATA_ID, [(1, 16, BYTES), (3, 1, UINT8)])]
-    told.append(b"\x00" + b"spindle-ride-fit"[:16] + b"\x00")
+    messages = [defined(DEVELOPER_DATA_ID, [(1, 16, BYTES), (3, 1, UINT8)])]
+    messages.append(b"\x00" + b"spindle-ride-fit"[:16] + b"\x00")
     fields = [(0, 1, UINT8), (1, 1, UINT8), (2, 1, UINT8), (3, 24, TEXT), (8, 8, TEXT)]
-    told.append(defined(FIELD_DESCRIPTION, fields))
+    messages.append(defined(FIELD_DESCRIPTION, fields))
     for number, (name, unit) in enumerate(own.values()):
         texts = name.encode().ljust(24, b"\0") + unit.encode().ljust(8, b"\0")
-        told.append(struct.pack("<BBBB", 0, 0, number, FLOAT32) + texts)
-    return told
+        messages.append(struct.pack("<BBBB", 0, 0, number, FLOAT32) + texts)
+    return messages
 
 
 def records(ridden: BySecond, own: dict[str, tuple[str, str]], breaks: list[int]) -> bytes:
@@ -148,14 +148,14 @@ def records(ridden: BySecond, own: dict[str, tuple[str, str]], breaks: list[int]
         head += struct.pack("BBB", one.number, BASE_TYPES[one.base].size, one.base)
     head += bytes([len(own)])
     head += b"".join(struct.pack("BBB", number, 4, 0) for number in range(len(own)))
-    pieces, begun = [], 0
+    chunks, begun = [], 0
     for at in [*breaks, len(rows)]:
-        pieces.append(head + rows[begun:at].tobytes())
+        chunks.append(head + rows[begun:at].tobytes())
         if at < len(rows):
-            pieces.append(timer(int(ridden.unix_s[at - 1]), STOP_ALL))
-            pieces.append(timer(int(ridden.unix_s[at]), START))
+            chunks.append(timer(int(ridden.unix_s[at - 1]), STOP_ALL))
+            chunks.append(timer(int(ridden.unix_s[at]), START))
         begun = at
-    return b"".join(pieces)
+    return b"".join(chunks)
 
 
 def raw(one: Native, values: Values) -> Values:
@@ -163,8 +163,8 @@ def raw(one: Native, values: Values) -> Values:
     numbers = np.rint((values * one.factor + one.offset) * one.scale)
     limits = np.iinfo(np.dtype(BASE_TYPES[one.base].code))
     beyond = ~np.isfinite(numbers) | (numbers < limits.min) | (numbers >= limits.max)
-    found: Values = np.where(beyond, BASE_TYPES[one.base].invalid or 0, numbers)
-    return found
+    encoded: Values = np.where(beyond, BASE_TYPES[one.base].invalid or 0, numbers)
+    return encoded
 
 
 def pauses(ride: Ride, ridden: BySecond) -> list[int]:
@@ -217,8 +217,8 @@ def summaries(ride: Ride, ridden: BySecond, start_s: int, end_s: int) -> list[by
 
 def scaled(of: Callable[[Values], Any], values: Values, scale: float = 1.0) -> float | None:
     """A figure of the samples that are there, None when there is none."""
-    there = values[np.isfinite(values)]
-    return float(of(there)) * scale if len(there) else None
+    finite = values[np.isfinite(values)]
+    return float(of(finite)) * scale if len(finite) else None
 
 
 def timer(unix_s: int, event_type: int) -> bytes:
@@ -235,14 +235,16 @@ def defined(number: int, fields: list[tuple[int, int, int]], local: int = 0) -> 
 
 def message(number: int, cells: list[Cell], local: int = 0) -> bytes:
     """One message with its definition; None is the field's "no value"."""
-    told = defined(number, [(one, BASE_TYPES[base].size, base) for one, base, _ in cells], local)
-    told += bytes([local])
+    encoded = defined(number, [(one, BASE_TYPES[base].size, base) for one, base, _ in cells], local)
+    encoded += bytes([local])
     for _, base, value in cells:
         kind = BASE_TYPES[base]
-        kept = None if value is None else round(value)
-        fits = kept is not None and 0 <= kept < (kind.invalid or 0)
-        told += struct.pack(f"<{kind.code}", kept if fits or base == UINT32Z else kind.invalid)
-    return told
+        rounded = None if value is None else round(value)
+        fits = rounded is not None and 0 <= rounded < (kind.invalid or 0)
+        encoded += struct.pack(
+            f"<{kind.code}", rounded if fits or base == UINT32Z else kind.invalid
+        )
+    return encoded
 
 
 def enclosed(body: bytes) -> bytes:

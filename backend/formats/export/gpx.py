@@ -38,13 +38,13 @@ def has_track(ridden: BySecond) -> bool:
 def gpx_file(ride: Ride, ridden: BySecond) -> bytes:
     """The ride's positions. ridden: of those of CHANNELS the ride has."""
     breaks = set(pauses(ride, ridden))
-    there = np.isfinite(ridden["latitude_deg"]) & np.isfinite(ridden["longitude_deg"])
+    valid = np.isfinite(ridden["latitude_deg"]) & np.isfinite(ridden["longitude_deg"])
     lines, open_segment = [HEAD.format(name=escape(ride.name or "Ride"))], False
     for at in range(len(ridden)):
         if at in breaks and open_segment:
             lines.append(BETWEEN)
             open_segment = False
-        if there[at]:
+        if valid[at]:
             lines.append(point(ridden, at))
             open_segment = True
     return "".join([*lines, FOOT]).encode()

@@ -6,7 +6,7 @@ from backend.core.energy import DEMANDED, MOTOR_TORQUE, MOTOR_TORQUE_DEMANDED
 from backend.core.ride import Ride
 
 
-def told_names(ride: Ride) -> dict[str, str]:
+def export_names(ride: Ride) -> dict[str, str]:
     """The name in a file of every recorded channel."""
-    asked = {MOTOR_TORQUE: MOTOR_TORQUE_DEMANDED} if ride.motor_torque_meaning == DEMANDED else {}
-    return {channel.name: asked.get(channel.name, channel.name) for channel in ride.channels}
+    renamed = {MOTOR_TORQUE: MOTOR_TORQUE_DEMANDED} if ride.motor_torque_meaning == DEMANDED else {}
+    return {channel.name: renamed.get(channel.name, channel.name) for channel in ride.channels}

@@ -48,9 +48,9 @@ def by_second(started_us: int, times_us: TimesUs, values: Mapping[str, Values]) 
 
 def mean_of(values: Values, starts: npt.NDArray[np.intp]) -> Values:
     """Mean of each group of rows beginning at `starts`, NaN for a group without a sample."""
-    there = np.isfinite(values)
-    sums = np.add.reduceat(np.where(there, values, 0.0), starts)
-    counts = np.add.reduceat(there.astype(np.int64), starts)
+    valid = np.isfinite(values)
+    sums = np.add.reduceat(np.where(valid, values, 0.0), starts)
+    counts = np.add.reduceat(valid.astype(np.int64), starts)
     means: Values = np.full(len(starts), np.nan)
     np.divide(sums, counts, out=means, where=counts > 0)
     return means
@@ -60,5 +60,5 @@ def last_of(values: Values, starts: npt.NDArray[np.intp]) -> Values:
     """The last sample of each group, NaN for a group without one."""
     index = np.where(np.isfinite(values), np.arange(len(values)), -1)
     last = np.maximum.reduceat(index, starts)
-    found: Values = np.where(last >= starts, values[last], np.nan)
-    return found
+    latest: Values = np.where(last >= starts, values[last], np.nan)
+    return latest

@@ -18,11 +18,11 @@ def with_leg(columns: Mapping[str, Column]) -> dict[str, Column]:
 
     FIT has share and side in one number; where it does not know the side, that number stays.
     """
-    told = columns.get(BALANCE)
-    if told is None:
+    balance = columns.get(BALANCE)
+    if balance is None:
         return dict(columns)
-    raw = told.values
+    raw = balance.values
     right = np.nan_to_num(raw).astype(np.int64) & RIGHT != 0
     share = np.where(right, raw - RIGHT, np.nan)
-    found = {**columns, BALANCE: replace(told, values=np.where(right, np.nan, raw))}
-    return {**found, RIGHT_LEG: Column(share, "%")}
+    with_balance = {**columns, BALANCE: replace(balance, values=np.where(right, np.nan, raw))}
+    return {**with_balance, RIGHT_LEG: Column(share, "%")}

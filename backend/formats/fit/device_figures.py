@@ -10,7 +10,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from backend.core.channels import Values
-from backend.core.device_metadata import STATED_MAX, STATEMENTS_MAX, DeviceFigure, DeviceSession
+from backend.core.device_metadata import FIGURES_MAX, STATEMENTS_MAX, DeviceFigure, DeviceSession
 from backend.formats.fit.fields import Bytes, Described, table_of
 from backend.formats.fit.layout import Part
 from backend.formats.fit.profile import ProfileField
@@ -118,12 +118,12 @@ def statements_of(
     records_s: FIT times (n,) of the records, which a session without times is of.
     """
     sessions = table_of(cells, part.of(SESSION), SESSION_FIELDS, described)
-    there = records_s[np.isfinite(records_s)]
+    valid_s = records_s[np.isfinite(records_s)]
     ends_s, starts_s = sessions.time_s, sessions.values("start_time")
     elapsed_s = sessions.values("total_elapsed_time")
     starts_s = np.where(np.isnan(starts_s), ends_s - elapsed_s, starts_s)
     ends_s = np.where(np.isnan(elapsed_s), ends_s, starts_s + elapsed_s)
-    found = []
+    statements = []
     for row in range(min(len(sessions), STATEMENTS_MAX)):
         figures = [
             DeviceFigure(name, round(float(column.values[row]), 6), column.unit)
@@ -131,10 +131,10 @@ def statements_of(
             if name not in LEFT_OUT and np.isfinite(column.values[row])
         ]
         from_s, to_s = float(starts_s[row]), float(ends_s[row])
-        if not to_s > from_s and len(there):
-            from_s, to_s = float(there.min()), float(there.max())
+        if not to_s > from_s and len(valid_s):
+            from_s, to_s = float(valid_s.min()), float(valid_s.max())
         if figures and to_s > from_s:
-            told = tuple(figures[:STATED_MAX])
-            found.append(DeviceSession(EPOCH_S + from_s, EPOCH_S + to_s, told))
+            within = tuple(figures[:FIGURES_MAX])
+            statements.append(DeviceSession(EPOCH_S + from_s, EPOCH_S + to_s, within))
     unread = {f"session_{name}": count for name, count in sessions.unread.items()}
-    return tuple(found), unread
+    return tuple(statements), unread

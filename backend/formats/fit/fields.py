@@ -72,16 +72,16 @@ def table_of(
     data: uint8, the file. names: fields by number. described: developers' fields by owner and
     number. Of two fields of one name in a message the first that has a value counts.
     """
-    found = list(definitions)
-    offsets = [np.frombuffer(d.offsets, dtype=np.int64) for d in found]
-    if not found:
+    present = list(definitions)
+    offsets = [np.frombuffer(d.offsets, dtype=np.int64) for d in present]
+    if not present:
         return Table(np.empty(0))
     order = np.argsort(np.concatenate(offsets), kind="stable")
     place = np.empty(len(order), np.int64)
     place[order] = np.arange(len(order))
     table = Table(np.full(len(order), np.nan))
     first = 0
-    for definition, at in zip(found, offsets, strict=True):
+    for definition, at in zip(present, offsets, strict=True):
         rows = place[first : first + len(at)]
         first += len(at)
         messages = data[at[:, None] + np.arange(definition.size)]
@@ -93,7 +93,7 @@ def table_of(
                 if column is None:
                     table.unread[name] = table.unread.get(name, 0) + len(at)
                 else:
-                    put(table, name, column, rows)
+                    write_column(table, name, column, rows)
     add_up_rounds(table)
     return table
 
@@ -105,19 +105,21 @@ def fill_times(
     if definition.time_at:
         stamp = Field(TIMESTAMP, BASE_TYPES[UINT32].size, UINT32, definition.time_at)
         time_s[rows] = numbers(messages, stamp, definition.little)
-    for row, offset in zip(rows, at, strict=True) if definition.told_s else ():
-        told = definition.told_s.get(int(offset))
-        if told is not None:
-            time_s[row] = told
+    for row, offset in zip(rows, at, strict=True) if definition.time_of_offset else ():
+        given_s = definition.time_of_offset.get(int(offset))
+        if given_s is not None:
+            time_s[row] = given_s
 
 
-def put(table: Table, name: str, column: Column, rows: Places) -> None:
+def write_column(table: Table, name: str, column: Column, rows: Places) -> None:
     """Write one definition's values into the column of all."""
-    known = table.columns.get(name)
-    if known is None:
-        known = replace(column, values=np.full(len(table), np.nan))
-        table.columns[name] = known
-    known.values[rows] = np.where(np.isnan(known.values[rows]), column.values, known.values[rows])
+    existing = table.columns.get(name)
+    if existing is None:
+        existing = replace(column, values=np.full(len(table), np.nan))
+        table.columns[name] = existing
+    existing.values[rows] = np.where(
+        np.isnan(existing.values[rows]), column.values, existing.values[rows]
+    )
 
 
 def columns_of(
@@ -129,26 +131,29 @@ def columns_of(
 ) -> Iterable[tuple[str, Column | None]]:
     """The columns a field makes; None for what is no single number."""
     if one.developer is not None:
-        told = (described or {}).get((one.developer, one.number))
-        if told is None:
+        description = (described or {}).get((one.developer, one.number))
+        if description is None:
             # Its type is unknown without a description.
             yield f"developer_{one.developer}_{one.number}", None
             return
-        typed = Field(one.number, one.size, told.base, one.at)
+        typed = Field(one.number, one.size, description.base, one.at)
         if is_number(typed):
             values = numbers(messages, typed, little)
-            yield told.name, Column(values, told.unit, whole_step(typed))
+            yield description.name, Column(values, description.unit, integer_step(typed))
         else:
-            yield told.name, None
+            yield description.name, None
         return
-    known = names.get(one.number, ProfileField(f"unknown_{one.number}"))
-    if known.name == COMPRESSED_SPEED_DISTANCE and one.size == 3:
+    profile_field = names.get(one.number, ProfileField(f"unknown_{one.number}"))
+    if profile_field.name == COMPRESSED_SPEED_DISTANCE and one.size == 3:
         yield from speed_and_rounds(messages, one)
     elif is_number(one):
-        values = numbers(messages, one, little) / known.scale - known.offset
-        yield known.name, Column(values, known.unit, whole_step(one) / known.scale)
+        values = numbers(messages, one, little) / profile_field.scale - profile_field.offset
+        yield (
+            profile_field.name,
+            Column(values, profile_field.unit, integer_step(one) / profile_field.scale),
+        )
     else:
-        yield known.name, None
+        yield profile_field.name, None
 
 
 def is_number(one: Field) -> bool:
@@ -157,7 +162,7 @@ def is_number(one: Field) -> bool:
     return base is not None and bool(base.code) and one.size == base.size
 
 
-def whole_step(one: Field) -> float:
+def integer_step(one: Field) -> float:
     """Resolution of the raw number: 1 for whole ones, 0 for what has none of its own."""
     return 0.0 if BASE_TYPES[one.base].code in "fd" else 1.0
 
@@ -194,11 +199,13 @@ def add_up_rounds(table: Table) -> None:
     rounds = table.columns.pop(ROUNDS, None)
     if rounds is None or "distance" in table.columns:
         return
-    there = np.isfinite(rounds.values)
-    told = rounds.values[there]
+    valid = np.isfinite(rounds.values)
+    valid_rounds = rounds.values[valid]
     distance = np.full(len(table), np.nan)
-    steps = np.diff(told, prepend=told[:1]) % TWELVE_BITS
-    distance[there] = (told[:1] + np.cumsum(steps)) / ROUNDS_SCALE if len(told) else told
+    steps = np.diff(valid_rounds, prepend=valid_rounds[:1]) % TWELVE_BITS
+    distance[valid] = (
+        (valid_rounds[:1] + np.cumsum(steps)) / ROUNDS_SCALE if len(valid_rounds) else valid_rounds
+    )
     table.columns["distance"] = Column(distance, "m", 1 / ROUNDS_SCALE)
 
 
@@ -211,16 +218,16 @@ def text(data: bytes, definition: Definition, offset: int, number: int) -> str:
     return raw.split(b"\0", 1)[0].decode("utf-8", errors="replace").strip()
 
 
-def channel_name(told: str) -> str:
+def channel_name(field_name: str) -> str:
     """A name as our channels have them: lower case, digits and underscores."""
-    return re.sub(r"[^a-z0-9]+", "_", told.lower()).strip("_")[:40]
+    return re.sub(r"[^a-z0-9]+", "_", field_name.lower()).strip("_")[:40]
 
 
 def descriptions(
     data: bytes, definitions: Iterable[Definition]
 ) -> dict[tuple[int, int], Described]:
     """Developers' fields of a file, by owner and number; a later description counts."""
-    found: dict[tuple[int, int], Described] = {}
+    by_number: dict[tuple[int, int], Described] = {}
     for definition in definitions:
         cells = {f.number: f for f in definition.fields if f.developer is None and f.size == 1}
         for offset in definition.offsets:
@@ -232,5 +239,5 @@ def descriptions(
                 # What an app computes is not what the profile's field of that name is.
                 name = f"developer_{name}"
             unit = text(data, definition, offset, 8)
-            found[owner, number] = Described(name, unit, base)
-    return found
+            by_number[owner, number] = Described(name, unit, base)
+    return by_number

@@ -44,8 +44,8 @@ class Definition:
     """What messages under one local number look like, and where those are.
 
     size: bytes of a data message with its header byte. time_at: where in it the timestamp stands,
-    0 for nowhere. offsets: header bytes of its messages. told_s: FIT times that compressed headers
-    told, by offset.
+    0 for nowhere. offsets: header bytes of its messages. time_of_offset: FIT times of compressed
+    headers, by offset.
     """
 
     message: int
@@ -55,7 +55,7 @@ class Definition:
     time_at: int
     at: int
     offsets: array[int] = field(default_factory=lambda: array("q"))
-    told_s: dict[int, int] = field(default_factory=dict)
+    time_of_offset: dict[int, int] = field(default_factory=dict)
 
     def time_s(self, data: bytes, offset: int) -> int | None:
         """FIT time of the message at `offset`; None when it has none or it is invalid."""
@@ -72,9 +72,9 @@ class Part:
 
     definitions: dict[bytes, Definition] = field(default_factory=dict)
 
-    def keep(self, definition: Definition, told: bytes) -> Definition:
-        """The definition in force from now on. told: its bytes, but for the local number."""
-        return self.definitions.setdefault(told, definition)
+    def add(self, definition: Definition, encoded: bytes) -> Definition:
+        """The definition in force from now on. encoded: its bytes, but for the local number."""
+        return self.definitions.setdefault(encoded, definition)
 
     def of(self, message: int) -> Iterator[Definition]:
         """Definitions of one kind of message that has any."""
@@ -135,14 +135,17 @@ def is_definition(head: int) -> bool:
     return bool(head & DEFINITION) and not head & COMPRESSED
 
 
-def definition_of(head: int, known: Sequence[Definition | None]) -> Definition | None:
-    """The definition in force for a data message with this header byte. known: by local number."""
+def definition_of(head: int, definitions: Sequence[Definition | None]) -> Definition | None:
+    """The definition in force for a data message with this header byte.
+
+    definitions: by local number.
+    """
     if head & COMPRESSED:
-        return known[head >> COMPRESSED_SHIFT & COMPRESSED_MASK]
-    return known[head & LOCAL_MASK]
+        return definitions[head >> COMPRESSED_SHIFT & COMPRESSED_MASK]
+    return definitions[head & LOCAL_MASK]
 
 
 def makes_sense(definition: Definition, data: bytes) -> bool:
     """Whether a definition met behind damage is one: known types, no other architecture."""
-    known = all(f.developer is not None or f.base in BASE_TYPES for f in definition.fields)
-    return known and data[definition.at + 2] in (0, 1)
+    are_known = all(f.developer is not None or f.base in BASE_TYPES for f in definition.fields)
+    return are_known and data[definition.at + 2] in (0, 1)

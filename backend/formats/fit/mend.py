@@ -32,16 +32,16 @@ def mended(data: bytes, where: list[range]) -> tuple[bytes, list[Part], int] | N
     steps = steps_to(lacks)
     if steps is None:
         return None
-    found: list[tuple[bytes, list[Part], int]] = []
+    candidates: list[tuple[bytes, list[Part], int]] = []
     for behind in range(steps, 8 * end + 1, PERIOD_BITS):
         place, bit = divmod(8 * end - behind, 8)
-        if not any(place in told for told in where):
+        if not any(place in spans for spans in where):
             continue
         other = bytearray(data)
         other[place] ^= 1 << bit
         if (parts := sound_parts(bytes(other))) is not None:
-            found.append((bytes(other), parts, place))
-    return found[0] if len(found) == 1 else None
+            candidates.append((bytes(other), parts, place))
+    return candidates[0] if len(candidates) == 1 else None
 
 
 def steps_to(lacks: int) -> int | None:

@@ -72,21 +72,21 @@ def laps_of(laps: Table) -> tuple[Lap, ...]:
     starts_s = np.where(np.isnan(starts_s), ends_s - elapsed_s, starts_s)
     ends_s = np.where(np.isnan(elapsed_s), ends_s, starts_s + elapsed_s)
     triggers = laps.values("lap_trigger")
-    found = []
+    read_laps = []
     for row in np.flatnonzero(ends_s > starts_s)[:LAPS_MAX]:
-        told = {
-            name: known(laps.values(field)[row])
+        columns = {
+            name: number_or_none(laps.values(field)[row])
             for name, field in (
                 ("timer_s", "total_timer_time"),
                 ("distance_m", "total_distance"),
                 ("calories_kcal", "total_calories"),
             )
         }
-        trigger = known(triggers[row])
+        trigger = number_or_none(triggers[row])
         word = None if trigger is None else LAP_TRIGGERS.get(int(trigger), "other")
         begins_s, over_s = EPOCH_S + float(starts_s[row]), EPOCH_S + float(ends_s[row])
-        found.append(Lap(begins_s, over_s, word, **told))
-    return tuple(found)
+        read_laps.append(Lap(begins_s, over_s, word, **columns))
+    return tuple(read_laps)
 
 
 def pauses_of(events: Table) -> tuple[Pause, ...]:
@@ -94,22 +94,22 @@ def pauses_of(events: Table) -> tuple[Pause, ...]:
     kinds, who = events.values("event_type"), events.values("data")
     timer = np.flatnonzero((events.values("event") == TIMER) & np.isfinite(events.time_s))
     stopped: int | None = None
-    found: list[Pause] = []
+    pauses: list[Pause] = []
     for row in timer[np.argsort(events.time_s[timer], kind="stable")]:
         if kinds[row] in TIMER_STOPS and stopped is None:
             stopped = int(row)
         elif kinds[row] in TIMER_STARTS and stopped is not None:
             from_s, to_s = (EPOCH_S + float(events.time_s[at]) for at in (stopped, row))
             by = {BY_HAND: True, BY_ITSELF: False}.get(who[stopped])
-            if to_s > from_s and len(found) < PAUSES_MAX:
-                found.append(Pause(from_s, to_s, by))
+            if to_s > from_s and len(pauses) < PAUSES_MAX:
+                pauses.append(Pause(from_s, to_s, by))
             stopped = None
-    return tuple(found)
+    return tuple(pauses)
 
 
 def instruments_of(data: bytes, cells: Bytes, part: Part) -> tuple[Instrument, ...]:
     """Each device once, by its index in the file: devices are told again as they are heard."""
-    told = table_of(cells, part.of(DEVICE_INFO), DEVICE_FIELDS)
+    table = table_of(cells, part.of(DEVICE_INFO), DEVICE_FIELDS)
     names = [
         name
         for _, name in sorted(
@@ -118,23 +118,23 @@ def instruments_of(data: bytes, cells: Bytes, part: Part) -> tuple[Instrument, .
             for offset in definition.offsets
         )
     ]
-    index = told.values("device_index")
-    found: dict[float, dict[str, object]] = {}
-    for row in range(len(told)):
+    index = table.values("device_index")
+    instruments: dict[float, dict[str, object]] = {}
+    for row in range(len(table)):
         number = float(index[row])
-        if np.isnan(number) or (number not in found and len(found) >= INSTRUMENTS_MAX):
+        if np.isnan(number) or (number not in instruments and len(instruments) >= INSTRUMENTS_MAX):
             continue
-        facts = instrument(told, row, names[row])
-        before = found.setdefault(number, {})
+        facts = instrument(table, row, names[row])
+        before = instruments.setdefault(number, {})
         before |= {name: value for name, value in facts.items() if value is not None}
-    return tuple(Instrument(**facts) for facts in found.values() if facts)  # type: ignore[arg-type]
+    return tuple(Instrument(**facts) for facts in instruments.values() if facts)  # type: ignore[arg-type]
 
 
-def instrument(told: Table, row: int, name: str) -> dict[str, object]:
+def instrument(table: Table, row: int, name: str) -> dict[str, object]:
     """What one message tells of a device; None for what it does not."""
 
     def value(field: str) -> float | None:
-        return known(told.values(field)[row])
+        return number_or_none(table.values(field)[row])
 
     def word(field: str, words: dict[int, str], other: str) -> str | None:
         number = value(field)
@@ -154,6 +154,6 @@ def instrument(told: Table, row: int, name: str) -> dict[str, object]:
     }
 
 
-def known(value: float) -> float | None:
+def number_or_none(value: float) -> float | None:
     """A number, None for a missing one."""
     return float(value) if np.isfinite(value) else None

@@ -57,35 +57,35 @@ def read_fit(data: bytes) -> Outcome:
 
 def read_damaged(data: bytes) -> Outcome:
     """A FIT file that is not sound -> what can be read of it; of a sound one everything."""
-    found = Salvaging(data).run()
-    outcome = outcome_of(data, found.parts, found)
-    if found.walked and outcome.rides:
+    salvage = Salvaging(data).run()
+    outcome = outcome_of(data, salvage.parts, salvage)
+    if salvage.walked and outcome.rides:
         return outcome
-    right = mended(data, found.structure)
+    right = mended(data, salvage.structure)
     if right is None:
         return outcome
     data, parts, place = right
-    found = Salvage(parts, [("flipped_bit", place)], read_until=len(data))
-    return outcome_of(data, parts, found)
+    salvage = Salvage(parts, [("flipped_bit", place)], read_until=len(data))
+    return outcome_of(data, parts, salvage)
 
 
-def outcome_of(data: bytes, parts: list[Part], found: Salvage | None) -> Outcome:
-    """Rides, reason and completeness of what was read. found: None for a sound file."""
+def outcome_of(data: bytes, parts: list[Part], salvage: Salvage | None) -> Outcome:
+    """Rides, reason and completeness of what was read. salvage: None for a sound file."""
     records = sum(part.count(RECORD) for part in parts)
     if records > ROWS_MAX:
         return rejected("too_many_rows", f"{records} records; at most {ROWS_MAX} are read.")
     cells = np.frombuffer(data, dtype=np.uint8)
     rides = tuple(ride for part in parts for ride in rides_of(data, cells, part))
-    code, reason, offset = first_trouble(found)
+    code, reason, offset = worst_problem(salvage)
     if not rides:
         return nothing_saved(len(data), records, code, reason, offset)
-    if code is None or found is None:
+    if code is None or salvage is None:
         return Outcome(COMPLETE, rides, completeness=1.0)
-    share = completeness(len(data), found)
+    share = completeness(len(data), salvage)
     rows = sum(len(ride.rows.times_us) for ride in rides)
     # Rounded down: a file that lacks a byte is not at 100 %.
     about = "" if share is None else f", about {floor(1000.0 * share) / 10.0} % of the file"
-    detail = f"{where_told(reason, offset, len(data))}. {rows} records were saved{about}."
+    detail = f"{located(reason, offset, len(data))}. {rows} records were saved{about}."
     return Outcome(PARTIAL, rides, code, detail, offset, share)
 
 
@@ -93,20 +93,20 @@ def rides_of(data: bytes, cells: np.typing.NDArray[np.uint8], part: Part) -> lis
     """The rides of one file of the chain."""
     described = descriptions(data, part.of(FIELD_DESCRIPTION))
     records = table_of(cells, part.of(RECORD), RECORD_FIELDS, described)
-    stated, unread = statements_of(cells, part, described, records.time_s)
-    noted = replace(metadata_of(data, cells, part), statements=stated)
-    found: list[ImportedRide] = []
+    statements, unread = statements_of(cells, part, described, records.time_s)
+    metadata = replace(metadata_of(data, cells, part), statements=statements)
+    rides: list[ImportedRide] = []
     for sport, rows in legs_of(records, table_of(cells, part.of(SESSION), SESSION_FIELDS)):
         leg = records.of_rows(rows)
         columns = with_leg(leg.columns)
-        found += rides_of_columns(
+        rides += rides_of_columns(
             leg.time_s + EPOCH_S,
             values_of(columns),
             rules_of(columns, sport),
             sport,
-            leg.unread if found else leg.unread | unread,
+            leg.unread if rides else leg.unread | unread,
         )
-    return [replace(ride, noted=within(noted, *ride.span_s)) for ride in found]
+    return [replace(ride, metadata=within(metadata, *ride.span_s)) for ride in rides]
 
 
 def legs_of(records: Table, sessions: Table) -> list[tuple[str | None, Places]]:
@@ -127,25 +127,25 @@ def sport_name(number: float) -> str | None:
     return SPORTS.get(int(number), f"sport_{int(number)}") if np.isfinite(number) else None
 
 
-def first_trouble(found: Salvage | None) -> tuple[str | None, str, int | None]:
+def worst_problem(salvage: Salvage | None) -> tuple[str | None, str, int | None]:
     """Code, reason and byte of the trouble that cost most: lost rows before doubtful ones."""
     for kind, (code, reason) in TROUBLES.items():
-        for met, offset in found.troubles if found is not None else ():
+        for met, offset in salvage.troubles if salvage is not None else ():
             if met == kind:
                 return code, reason, offset
     return None, "", None
 
 
-def completeness(length: int, found: Salvage) -> float | None:
+def completeness(length: int, salvage: Salvage) -> float | None:
     """Share of the file's bytes that were read as messages; None when its size is unknown."""
-    expected = max(found.expected_bytes, length)
-    if found.expected_bytes > DECLARED_RATIO_MAX * length:
+    expected = max(salvage.expected_bytes, length)
+    if salvage.expected_bytes > DECLARED_RATIO_MAX * length:
         return None
-    read = min(found.read_until + CHECKSUM_BYTES, length) - found.skipped_bytes
+    read = min(salvage.read_until + CHECKSUM_BYTES, length) - salvage.skipped_bytes
     return min(max(read / expected, 0.0), 1.0)
 
 
-def where_told(reason: str, offset: int | None, length: int) -> str:
+def located(reason: str, offset: int | None, length: int) -> str:
     """A reason as the beginning of a sentence, with its place."""
     where = "" if offset is None else f" at byte {offset} of {length}"
     return f"{reason[0].upper()}{reason[1:]}{where}"
@@ -162,6 +162,6 @@ def nothing_saved(
             offset,
         )
     if code is not None:
-        told = where_told(reason, offset, length)
-        return rejected("no_records", f"{told}, and no record was found.", offset)
+        sentence = located(reason, offset, length)
+        return rejected("no_records", f"{sentence}, and no record was found.", offset)
     return rejected("no_records", "The file holds no records: it is not an activity.")

@@ -41,7 +41,7 @@ DEFINITION_BYTES_MAX = 6 + 2 * (1 + 255 * 3)
 # many are looked at for it.
 CHAIN_MIN, CHAIN_TIMES, CHAIN_MAX = 4, 2, 24
 
-Known = Sequence[Definition | None]
+Definitions = Sequence[Definition | None]
 
 
 @dataclass
@@ -66,13 +66,13 @@ class Salvage:
         return [
             range(lost, lost + DEFINITION_BYTES_MAX if lost else 0),
             *(
-                range(definition.at, definition.at + 1 + len(told))
+                range(definition.at, definition.at + 1 + len(encoded))
                 for part in self.parts
-                for told, definition in part.definitions.items()
+                for encoded, definition in part.definitions.items()
             ),
         ]
 
-    def trouble(self, code: str, at: int) -> None:
+    def add_problem(self, code: str, at: int) -> None:
         """Note what was met at a byte."""
         self.troubles.append((code, at))
 
@@ -92,7 +92,7 @@ class Salvaging:
 
     def __init__(self, data: bytes) -> None:
         self.data = data
-        self.found = Salvage()
+        self.salvage = Salvage()
         self.walk = Walk()
         # The time that is believed, which the next one must be near to.
         self.last_s: int | None = None
@@ -103,7 +103,7 @@ class Salvaging:
 
     def run(self) -> Salvage:
         """Everything there is."""
-        data, found = self.data, self.found
+        data, salvage = self.data, self.salvage
         at, end = self.begin(first_header(data)), len(data)
         while at < end:
             if self.file_ends(at):
@@ -112,34 +112,34 @@ class Salvaging:
                     at = self.begin(at)
                     continue
                 if at < end:
-                    found.trouble("trailing", at)
-                found.read_until = at
-                return found
-            step = self.step(at, end, self.walk.known)
+                    salvage.add_problem("trailing", at)
+                salvage.read_until = at
+                return salvage
+            step = self.step(at, end, self.walk.definitions)
             if step is not None and self.believed(at, step):
                 self.take(at, step)
-                at = found.read_until = step.stop
+                at = salvage.read_until = step.stop
             else:
-                at = self.look_for_place(at)
-        if not found.troubles or found.troubles[-1][0] != "truncated":
-            found.trouble("truncated", end)
-        return found
+                at = self.find_next_message(at)
+        if not salvage.troubles or salvage.troubles[-1][0] != "truncated":
+            salvage.add_problem("truncated", end)
+        return salvage
 
     def begin(self, at: int | None) -> int:
         """A file of the chain begins; returns where its messages do."""
         self.walk, self.last_s, self.latest = Walk(), None, None
-        self.found.parts.append(self.walk.part)
+        self.salvage.parts.append(self.walk.part)
         self.start, self.end = at or 0, None
         if at is None:
-            self.found.trouble("header", 0)
+            self.salvage.add_problem("header", 0)
             return 0
         self.end = declared_end(self.data, at)
         size = header_size(self.data, at) or HEADER_SIZES[1]
         if self.end is None or self.end <= at + size:
-            self.found.trouble("header", at)
+            self.salvage.add_problem("header", at)
             self.end = None
         else:
-            self.found.expected_bytes += self.end + CHECKSUM_BYTES - at
+            self.salvage.expected_bytes += self.end + CHECKSUM_BYTES - at
         return at + size
 
     def file_ends(self, at: int) -> bool:
@@ -151,24 +151,24 @@ class Salvaging:
             return False
         proven = checksum_fits(self.data, self.start, at)
         if not proven and at == self.end and not another and not last and self.chain(at, None):
-            self.found.trouble("header", self.start)
+            self.salvage.add_problem("header", self.start)
             self.end = None
             return False
         if self.end not in (at, None):
-            self.found.trouble("header", self.start)
+            self.salvage.add_problem("header", self.start)
         elif not proven:
-            self.found.trouble("checksum_mismatch", at)
+            self.salvage.add_problem("checksum_mismatch", at)
         return True
 
-    def step(self, at: int, end: int, known: Known) -> Step | None:
+    def step(self, at: int, end: int, definitions: Definitions) -> Step | None:
         """The message at `at`, None when there can be none."""
         head = self.data[at]
         if is_definition(head):
-            found = read_definition(self.data, at, end)
-            if found is None or not makes_sense(found[0], self.data):
+            read = read_definition(self.data, at, end)
+            if read is None or not makes_sense(read[0], self.data):
                 return None
-            return Step(found[1], found[0], False)
-        definition = definition_of(head, known)
+            return Step(read[1], read[0], False)
+        definition = definition_of(head, definitions)
         if definition is None or at + definition.size > end:
             return None
         if not head & COMPRESSED:
@@ -195,18 +195,18 @@ class Salvaging:
 
         aligned: what is before was read, so that the file may end without a time.
         """
-        known, times, end = list(self.walk.known), 0, len(self.data)
+        definitions, times, end = list(self.walk.definitions), 0, len(self.data)
         for number in range(CHAIN_MAX):
             if number >= CHAIN_MIN and times >= CHAIN_TIMES:
                 return True
             ends = at == self.end or end - at == CHECKSUM_BYTES
             if ends or header_size(self.data, at + CHECKSUM_BYTES):
                 return times > 0 or aligned
-            step = self.step(at, end, known) if at < end else None
+            step = self.step(at, end, definitions) if at < end else None
             if step is None:
-                return aligned and self.is_cut(at, known)
+                return aligned and self.is_cut(at, definitions)
             if not step.is_data:
-                known[self.data[at] & LOCAL_MASK] = step.definition
+                definitions[self.data[at] & LOCAL_MASK] = step.definition
             elif step.offset_s is not None:
                 times += 1
             elif step.definition.time_at:
@@ -224,14 +224,16 @@ class Salvaging:
         """Keep a message."""
         definition, clock = step.definition, self.walk.clock
         if not step.is_data:
-            told = self.data[at + 1 : step.stop]
-            self.walk.known[self.data[at] & LOCAL_MASK] = self.walk.part.keep(definition, told)
+            encoded = self.data[at + 1 : step.stop]
+            self.walk.definitions[self.data[at] & LOCAL_MASK] = self.walk.part.add(
+                definition, encoded
+            )
             self.latest = None
             return
         if step.offset_s is not None:
             time_s = clock.tick(self.data, step.offset_s)
             if time_s is not None:
-                definition.told_s[at] = time_s
+                definition.time_of_offset[at] = time_s
         elif definition.time_at:
             time_s = definition.time_s(self.data, at)
             if time_s is not None and (
@@ -244,26 +246,28 @@ class Salvaging:
         definition.offsets.append(at)
         self.latest = (at, definition)
 
-    def look_for_place(self, at: int) -> int:
+    def find_next_message(self, at: int) -> int:
         """Where reading goes on behind a message that cannot be one; the end for nowhere."""
         data, end = self.data, len(self.data)
         begin = self.latest[0] + 1 if self.latest is not None else at + 1
         for place in range(begin, end - CHECKSUM_BYTES):
             if place != at and self.could_begin(place) and self.chain(place, self.last_s):
-                self.found.trouble("damaged", at)
+                self.salvage.add_problem("damaged", at)
                 return self.go_on_from(at, place)
             if header_size(data, place + CHECKSUM_BYTES):
-                self.found.trouble("damaged", at)
+                self.salvage.add_problem("damaged", at)
                 return place
         if self.last_s is not None and self.chain(at, None):
             # A clock that was set anew: what follows agrees with itself.
             self.last_s = None
             return at
-        self.found.trouble("truncated" if self.is_cut(at, self.walk.known) else "damaged", at)
-        self.found.skipped_bytes += end - at
+        self.salvage.add_problem(
+            "truncated" if self.is_cut(at, self.walk.definitions) else "damaged", at
+        )
+        self.salvage.skipped_bytes += end - at
         return end
 
-    def is_cut(self, at: int, known: Known) -> bool:
+    def is_cut(self, at: int, definitions: Definitions) -> bool:
         """Whether a message begins here that the end of the file cuts short."""
         end = len(self.data)
         if at >= end:
@@ -271,13 +275,13 @@ class Salvaging:
         head = self.data[at]
         if is_definition(head):
             return read_definition(self.data, at, end) is None
-        definition = definition_of(head, known)
+        definition = definition_of(head, definitions)
         return definition is not None and at + definition.size > end
 
     def could_begin(self, place: int) -> bool:
         """A quick look at a header byte, before the chain behind it is read."""
         head = self.data[place]
-        return is_definition(head) or definition_of(head, self.walk.known) is not None
+        return is_definition(head) or definition_of(head, self.walk.definitions) is not None
 
     def go_on_from(self, at: int, place: int) -> int:
         """Give up the message before damage, which reaches into it: it is not trusted.
@@ -285,13 +289,13 @@ class Salvaging:
         It is, when just one message is skipped: then that one's own header is what was damaged.
         """
         begin = at
-        one_message = any(d is not None and place - at == d.size for d in self.walk.known)
+        one_message = any(d is not None and place - at == d.size for d in self.walk.definitions)
         if self.latest is not None and not one_message:
             begin, definition = self.latest
             definition.offsets.pop()
-            definition.told_s.pop(begin, None)
+            definition.time_of_offset.pop(begin, None)
         self.latest = None
-        self.found.skipped_bytes += place - begin
+        self.salvage.skipped_bytes += place - begin
         return place
 
 

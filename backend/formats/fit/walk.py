@@ -29,17 +29,17 @@ class Clock:
 
     at: int = 0
     definition: Definition | None = None
-    told_s: int | None = None
+    time_s: int | None = None
 
     def tick(self, data: bytes, offset_s: int) -> int | None:
         """FIT time of a message whose header tells the time's lowest five bits; None for none."""
         if self.definition is not None:
-            self.told_s = self.definition.time_s(data, self.at)
+            self.time_s = self.definition.time_s(data, self.at)
             self.definition = None
-        if self.told_s is None:
+        if self.time_s is None:
             return None
-        self.told_s += (offset_s - self.told_s) & OFFSET_MASK
-        return self.told_s
+        self.time_s += (offset_s - self.time_s) & OFFSET_MASK
+        return self.time_s
 
 
 @dataclass
@@ -47,7 +47,7 @@ class Walk:
     """Where a walk is: definitions in force by local number, and the clock."""
 
     part: Part = field(default_factory=Part)
-    known: list[Definition | None] = field(default_factory=lambda: [None] * LOCALS)
+    definitions: list[Definition | None] = field(default_factory=lambda: [None] * LOCALS)
     clock: Clock = field(default_factory=Clock)
 
 
@@ -70,32 +70,32 @@ def sound_parts(data: bytes) -> list[Part] | None:
 
 def checksum_fits(data: bytes, at: int, end: int) -> bool:
     """Whether the two bytes at `end` are the CRC-16/ARC of the bytes from `at`."""
-    told = int.from_bytes(data[end : end + CHECKSUM_BYTES], "little")
-    return end + CHECKSUM_BYTES <= len(data) and crc16.arc(memoryview(data)[at:end]) == told
+    declared = int.from_bytes(data[end : end + CHECKSUM_BYTES], "little")
+    return end + CHECKSUM_BYTES <= len(data) and crc16.arc(memoryview(data)[at:end]) == declared
 
 
 def go_on(data: bytes, at: int, end: int, walk: Walk) -> int:
     """Take messages from `at` to `end`; returns `end`, or where a message cannot be one."""
-    known, clock = walk.known, walk.clock
+    definitions, clock = walk.definitions, walk.clock
     while at < end:
         head = data[at]
         if head & COMPRESSED:
-            definition = known[head >> COMPRESSED_SHIFT & COMPRESSED_MASK]
+            definition = definitions[head >> COMPRESSED_SHIFT & COMPRESSED_MASK]
         elif head & DEFINITION:
-            found = read_definition(data, at, end)
-            if found is None:
+            result = read_definition(data, at, end)
+            if result is None:
                 return at
-            known[head & LOCAL_MASK] = walk.part.keep(found[0], data[at + 1 : found[1]])
-            at = found[1]
+            definitions[head & LOCAL_MASK] = walk.part.add(result[0], data[at + 1 : result[1]])
+            at = result[1]
             continue
         else:
-            definition = known[head & LOCAL_MASK]
+            definition = definitions[head & LOCAL_MASK]
         if definition is None or at + definition.size > end:
             return at
         if head & COMPRESSED:
             time_s = clock.tick(data, head & OFFSET_MASK)
             if time_s is not None:
-                definition.told_s[at] = time_s
+                definition.time_of_offset[at] = time_s
         elif definition.time_at:
             clock.at, clock.definition = at, definition
         definition.offsets.append(at)

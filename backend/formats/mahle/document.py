@@ -62,7 +62,7 @@ CHANNELS = {
 }
 OTHERS = {"bt_tm": ("battery_temperature_degc", "degC"), "bt_cc": ("battery_left_wh", "Wh")}
 # Figures of the whole ride and their units; "" where nothing proves one.
-STATED = {
+FIGURE_UNITS = {
     "total_distance": "m",
     "ride_distance": "m",
     "ride_time": "s",
@@ -98,24 +98,24 @@ class Document:
         self._moments: list[datetime | None] = []
         self._paused: list[int] = []
         self._members: dict[str, str] = {}
-        self._stated: dict[str, DeviceFigure] = {}
+        self._figures: dict[str, DeviceFigure] = {}
 
     def member(self, name: str, value: Any) -> None:
         """A member of the document that is no point."""
         if name == BATTERIES and isinstance(value, list):
             for place, battery in enumerate(value[:4]):
-                for key, told in battery.items() if isinstance(battery, dict) else ():
-                    self._figure(key if place == 0 else f"{key}_{place + 1}", key, told)
+                for key, figure in battery.items() if isinstance(battery, dict) else ():
+                    self._figure(key if place == 0 else f"{key}_{place + 1}", key, figure)
         elif name in (STARTS, STOPS, SERIAL) and isinstance(value, str):
             self._members[name] = value[:100]
         elif not self._figure(name, name, value) and value is not None:
             self._points.unread.setdefault(plain(name), 1)
 
     def _figure(self, name: str, key: str, value: Any) -> bool:
-        told = number(value) if isinstance(value, str) else float("nan")
-        if key not in STATED or not isfinite(told):
+        parsed = number(value) if isinstance(value, str) else float("nan")
+        if key not in FIGURE_UNITS or not isfinite(parsed):
             return False
-        self._stated[name] = DeviceFigure(name, told, STATED[key])
+        self._figures[name] = DeviceFigure(name, parsed, FIGURE_UNITS[key])
         return True
 
     def point(self, point: dict[str, Any]) -> None:
@@ -125,8 +125,8 @@ class Document:
             if key == BATTERY and isinstance(value, list):
                 for place, battery in enumerate(value[:4]):
                     before = BATTERY if place == 0 else f"{BATTERY}{place + 1}"
-                    for name, told in battery.items() if isinstance(battery, dict) else ():
-                        cells[f"{before}_{plain(name)}"] = cell(told)
+                    for name, content in battery.items() if isinstance(battery, dict) else ():
+                        cells[f"{before}_{plain(name)}"] = cell(content)
             elif key == WARNING and value == PAUSED:
                 self._paused.append(len(self._moments))
             elif key != TIME:
@@ -136,12 +136,12 @@ class Document:
 
     def clock(self, answer: TableAnswer | None, damaged: bool) -> Clock | None:
         """When every point was; None where the zone must be asked."""
-        told = [moment for moment in self._moments if moment is not None]
-        if all(moment.tzinfo for moment in told):
+        moments = [moment for moment in self._moments if moment is not None]
+        if all(moment.tzinfo for moment in moments):
             return self._times(None), {}
-        shift_s = shift_of(told[0], iso_moment(self._members.get(STARTS, "")))
+        shift_s = shift_of(moments[0], iso_moment(self._members.get(STARTS, "")))
         stopped = None if damaged else iso_moment(self._members.get(STOPS, ""))
-        if shift_s is not None and not clock_changed(told[-1], stopped, shift_s):
+        if shift_s is not None and not clock_changed(moments[-1], stopped, shift_s):
             zone = timezone(timedelta(seconds=shift_s))
             return self._times(zone), {"clock": f"{zone}"}
         if answer is None or answer.time_zone is None or lacking(QUESTION, answer):
@@ -157,39 +157,43 @@ class Document:
         """Its rides: one, unless it breaks off for hours."""
         read, rules = ruled(self._points.values())
         unread = self._points.unread
-        found = rides_of_columns(times, read, rules, "e_biking", unread)
-        noted = self._noted(times)
+        rides_read = rides_of_columns(times, read, rules, "e_biking", unread)
+        metadata = self._metadata(times)
         return [
             replace(
                 ride,
-                noted=within(noted, ride.started_us / 1e6, float(ride.rows.times_us[-1]) / 1e6),
+                metadata=within(
+                    metadata, ride.started_us / 1e6, float(ride.rows.times_us[-1]) / 1e6
+                ),
                 intake=replace(ride.intake, taken_as=taken_as) if ride.intake else None,
             )
-            for ride in found
+            for ride in rides_read
         ]
 
-    def _noted(self, times: Values) -> DeviceMetadata:
+    def _metadata(self, times: Values) -> DeviceMetadata:
         spans = [times[at : at + 2].tolist() for at in self._paused if at + 1 < len(times)]
         pauses = [Pause(from_s, to_s) for from_s, to_s in spans if to_s > from_s]
         serial = self._members.get(SERIAL, "").encode("ascii", "ignore").decode() or None
         bike = Instrument("light_electric_vehicle", "mahle_ebikemotion", serial_number=serial)
-        told = tuple(self._stated.values())
-        there = times[np.isfinite(times)]
-        stated = (
-            (DeviceSession(float(there.min()), float(there.max()), told),)
-            if told and len(there)
+        figures = tuple(self._figures.values())
+        known_times = times[np.isfinite(times)]
+        statements = (
+            (DeviceSession(float(known_times.min()), float(known_times.max()), figures),)
+            if figures and len(known_times)
             else ()
         )
-        return DeviceMetadata((), tuple(pauses[:PAUSES_MAX]), (bike,), stated)
+        return DeviceMetadata((), tuple(pauses[:PAUSES_MAX]), (bike,), statements)
 
     def ridden_share(self) -> float | None:
         """Of the time between the start and the stop the file names, what its points cover."""
-        told = [moment for moment in self._moments if moment is not None]
+        moments = [moment for moment in self._moments if moment is not None]
         ends = [iso_moment(self._members.get(name, "")) for name in (STARTS, STOPS)]
-        whole_s = unix_seconds(ends[1]) - unix_seconds(ends[0])
-        if not told or not whole_s > 0:
+        total_s = unix_seconds(ends[1]) - unix_seconds(ends[0])
+        if not moments or not total_s > 0:
             return None
-        return min(max((unix_seconds(told[-1]) - unix_seconds(told[0])) / whole_s, 0.0), 0.999)
+        return min(
+            max((unix_seconds(moments[-1]) - unix_seconds(moments[0])) / total_s, 0.0), 0.999
+        )
 
 
 def ruled(columns: Mapping[str, Values]) -> tuple[dict[str, Values], tuple[FieldRule, ...]]:
@@ -198,8 +202,8 @@ def ruled(columns: Mapping[str, Values]) -> tuple[dict[str, Values], tuple[Field
     rules = []
     for key, values in columns.items():
         if key in CHANNELS:
-            known = replace(RULES[CHANNELS[key]], sources=(key,), factor=1.0)
-            rules.append(as_written(known, {key: values}))
+            base_rule = replace(RULES[CHANNELS[key]], sources=(key,), factor=1.0)
+            rules.append(as_written(base_rule, {key: values}))
         else:
             name, unit = OTHERS.get(key, (key if key not in RULES else f"{key}_of_file", ""))
             rules.append(replace(rule(name, Column(values, unit, step_of(values))), sources=(key,)))
@@ -210,11 +214,11 @@ def ruled(columns: Mapping[str, Values]) -> tuple[dict[str, Values], tuple[Field
 def shift_of(local: datetime, utc: datetime | None) -> float | None:
     """How far a local clock is from UTC, s; None where it is too far from a whole quarter of an
     hour to tell."""
-    apart = unix_seconds(local) - unix_seconds(utc)
-    if not abs(apart) <= ZONE_MAX_S + SOON_S:
+    difference_s = unix_seconds(local) - unix_seconds(utc)
+    if not abs(difference_s) <= ZONE_MAX_S + SOON_S:
         return None
-    shift_s = QUARTER_S * round(apart / QUARTER_S)
-    return shift_s if abs(apart - shift_s) <= SOON_S else None
+    shift_s = QUARTER_S * round(difference_s / QUARTER_S)
+    return shift_s if abs(difference_s - shift_s) <= SOON_S else None
 
 
 def clock_changed(local: datetime, utc: datetime | None, shift_s: float) -> bool:
@@ -233,5 +237,5 @@ def cell(value: Any) -> str:
 
 def plain(name: str, length: int = 24) -> str:
     """A name as our channels have them, whatever the file calls it."""
-    kept = "".join(c if c.isascii() and c.isalnum() else "_" for c in name.lower())[:length]
-    return kept if kept[:1].isalpha() else f"field_{kept}"
+    safe = "".join(c if c.isascii() and c.isalnum() else "_" for c in name.lower())[:length]
+    return safe if safe[:1].isalpha() else f"field_{safe}"

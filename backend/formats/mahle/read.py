@@ -40,7 +40,7 @@ def read_mahle(data: bytes, answer: TableAnswer | None = None) -> Outcome:
     walked = Walk(data, Listener(document.member, document.point)).run()
     if walked.points > POINTS_MAX:
         return rejected("too_many_rows", f"{walked.points} points; at most {POINTS_MAX} are read.")
-    clock = document.clock(answer, walked.trouble is not None)
+    clock = document.clock(answer, walked.error is not None)
     if clock is None:
         detail = f"A {KIND} that does not say: time_zone. Say it once, and every such file is read."
         return replace(rejected(NEEDS_MAPPING, detail), question=QUESTION)
@@ -52,17 +52,17 @@ def outcome_of(
 ) -> Outcome:
     """Rides, reason and completeness."""
     where = "" if walked.offset is None else f" at byte {walked.offset} of {length}"
-    cut = walked.trouble == TRUNCATED
+    cut = walked.error == TRUNCATED
     reason = "The file ends in the middle" if cut else "No JSON"
     if not rides:
         if walked.points:
-            told = f"None of the {walked.points} points has a believable time and a value."
-            return rejected("no_valid_time", told, walked.offset)
-        told = f"{reason}{where}, and no" if walked.trouble else "There is no"
-        return rejected("no_records", f"{told} point of a ride was found.", walked.offset)
-    if walked.trouble is None:
+            reason_text = f"None of the {walked.points} points has a believable time and a value."
+            return rejected("no_valid_time", reason_text, walked.offset)
+        reason_text = f"{reason}{where}, and no" if walked.error else "There is no"
+        return rejected("no_records", f"{reason_text} point of a ride was found.", walked.offset)
+    if walked.error is None:
         return Outcome(COMPLETE, tuple(rides), completeness=1.0)
     share = document.ridden_share() if cut else None
     about = "" if share is None else f", about {floor(1000.0 * share) / 10.0} % of the ride's time"
     detail = f"{reason}{where}. {walked.points} points were saved{about}."
-    return Outcome(PARTIAL, tuple(rides), walked.trouble, detail, walked.offset, share)
+    return Outcome(PARTIAL, tuple(rides), walked.error, detail, walked.offset, share)

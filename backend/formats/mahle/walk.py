@@ -29,18 +29,18 @@ DECODER = json.JSONDecoder(parse_int=str, parse_float=str, parse_constant=str)
 
 @dataclass(frozen=True)
 class Listener:
-    """Who hears what the walk meets. told: a member of the document. point: each whole point."""
+    """Who hears what the walk meets. member: a member of the document. point: each whole point."""
 
-    told: Callable[[str, Any], None]
+    member: Callable[[str, Any], None]
     point: Callable[[dict[str, Any]], None]
 
 
 @dataclass
 class Walked:
-    """How the walk went. trouble: what was first met, and its byte. points: whole ones."""
+    """How the walk went. error: what was first met, and its byte. points: whole ones."""
 
     points: int = 0
-    trouble: str | None = None
+    error: str | None = None
     offset: int | None = None
 
 
@@ -65,12 +65,12 @@ class Walk:
                 return walked
             except (ValueError, RecursionError) as error:
                 ended = self._ended(getattr(error, "pos", self._at))
-                first = walked.trouble is None
+                first = walked.error is None
                 if first:
-                    walked.trouble, walked.offset = DAMAGED, self._place()
+                    walked.error, walked.offset = DAMAGED, self._place()
             if not self._next_point():
                 if first and ended:
-                    walked.trouble = TRUNCATED
+                    walked.error = TRUNCATED
                 return walked
             begin = self._each_point
 
@@ -90,7 +90,7 @@ class Walk:
                 self._skip(POINTS)
                 self._each_point(walked)
             else:
-                self._listener.told(name, self._value())
+                self._listener.member(name, self._value())
 
     def _each_point(self, walked: Walked) -> None:
         """Points up to the end of their list."""
@@ -107,9 +107,9 @@ class Walk:
         self._at += 1
         while self._attempts < ATTEMPTS_MAX:
             self._fill()
-            found = POINT.search(self._text, self._at)
-            if found is not None:
-                self._at = found.start()
+            match = POINT.search(self._text, self._at)
+            if match is not None:
+                self._at = match.start()
                 if self._is_point():
                     return True
                 self._attempts += 1
@@ -147,10 +147,10 @@ class Walk:
 
     def _skip(self, what: re.Pattern[str]) -> None:
         self._fill()
-        found = what.match(self._text, self._at)
-        if found is None:
+        match = what.match(self._text, self._at)
+        if match is None:
             raise ValueError
-        self._at = found.end()
+        self._at = match.end()
 
     def _value(self) -> Any:
         self._fill()

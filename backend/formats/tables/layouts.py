@@ -124,10 +124,10 @@ def ibike(rows: Sequence[Sequence[str]]) -> Layout:
 
     Its header names the units.
     """
-    told = [number(cell) for cell in rows[1][:6]]
+    figures = [number(cell) for cell in rows[1][:6]]
     start = ""
-    if len(told) == 6 and all(part == part for part in told):
-        start = "{:04.0f}-{:02.0f}-{:02.0f}T{:02.0f}:{:02.0f}:{:02.0f}".format(*told)
+    if len(figures) == 6 and all(part == part for part in figures):
+        start = "{:04.0f}-{:02.0f}-{:02.0f}T{:02.0f}:{:02.0f}:{:02.0f}".format(*figures)
     spacing = number(rows[3][4]) if len(rows[3]) > 4 else float("nan")
     return Layout(
         "an iBike table",
@@ -185,11 +185,11 @@ def named(row: Sequence[str]) -> tuple[str, ...]:
     names = [cell.strip().strip('"').strip()[:80] for cell in row]
     while names and not names[-1]:
         names.pop()
-    found: list[str] = []
+    found_names: list[str] = []
     for name in names:
-        again = found.count(name)
-        found.append(name if name not in found else f"{name}.{again}")
-    return tuple(found)
+        again = found_names.count(name)
+        found_names.append(name if name not in found_names else f"{name}.{again}")
+    return tuple(found_names)
 
 
 def time_column(names: Sequence[str]) -> int | None:

@@ -34,7 +34,7 @@ UNITS: dict[str, tuple[str, str, float, float]] = {
     "a": ("current", "A", 1.0, 0.0),
 }
 # Quantities whose unit is never taken for granted, with what may be said of each channel.
-ASKED: dict[str, tuple[str, ...]] = {
+UNIT_CHOICES: dict[str, tuple[str, ...]] = {
     "speed_kmh": ("km/h", "m/s", "mph"),
     "distance_m": ("m", "km", "mi"),
     "altitude_m": ("m", "ft"),
@@ -132,10 +132,10 @@ class Measure:
 
     def in_unit(self, unit: str) -> tuple[FieldRule, float]:
         """The rule for numbers in a unit, and what is added to them afterwards."""
-        known = UNITS.get(plain_unit(unit))
-        if self.own or known is None:
+        rule = UNITS.get(plain_unit(unit))
+        if self.own or rule is None:
             return self.rule, 0.0
-        _, _, factor, added = known
+        _, _, factor, added = rule
         if self.rule.channel.name == "range_km":
             factor /= 1000.0
         return replace(self.rule, factor=factor), added
@@ -143,34 +143,34 @@ class Measure:
 
 def measure_of(header: str) -> Measure | None:
     """What a column measures by its header; None when nothing is known of it."""
-    name, told = split_unit(header)
+    name, unit = split_unit(header)
     own = own_rule(header.strip().lower())
     if own is not None:
         return Measure(own, own.channel.unit, own=True)
     channel = NAMES.get(words(name)) or (header.strip().lower() if header in RULES else None)
     # A unit in a name can be all that it says: `Km/h` of a head unit is its speed.
-    if told is None and words(name) in ("km h", "kph", "mph", "km", "miles", "watts"):
-        told = name.strip()
+    if unit is None and words(name) in ("km h", "kph", "mph", "km", "miles", "watts"):
+        unit = name.strip()
     if channel is None or channel not in RULES:
         return None
-    return measure_in(channel, told)
+    return measure_in(channel, unit)
 
 
-def measure_in(channel: str, told: str | None) -> Measure:
+def measure_in(channel: str, unit: str | None) -> Measure:
     """A channel in the unit a header tells; where it tells none, as the channel is defined."""
     rule = RULES[channel]
-    known = UNITS.get(plain_unit(told)) if told else None
-    if known is not None and known[1] in ASKED.get(channel, (known[1],)):
-        return Measure(rule, known[1])
-    if channel in ASKED:
-        return Measure(rule, None, ASKED[channel])
+    unit_rule = UNITS.get(plain_unit(unit)) if unit else None
+    if unit_rule is not None and unit_rule[1] in UNIT_CHOICES.get(channel, (unit_rule[1],)):
+        return Measure(rule, unit_rule[1])
+    if channel in UNIT_CHOICES:
+        return Measure(rule, None, UNIT_CHOICES[channel])
     return Measure(rule, DEFINED.get(channel, rule.channel.unit))
 
 
 def split_unit(header: str) -> tuple[str, str | None]:
     """Name and unit of a header like `Speed (km/h)`; no unit where none is in brackets."""
-    found = IN_BRACKETS.match(header.strip())
-    return (found.group(1), found.group(2)) if found else (header, None)
+    match = IN_BRACKETS.match(header.strip())
+    return (match.group(1), match.group(2)) if match else (header, None)
 
 
 def plain_unit(unit: str) -> str:
@@ -190,8 +190,8 @@ def own_rule(name: str) -> FieldRule | None:
     suffix = next((suffix for suffix in OWN_UNITS if name.endswith(suffix)), None)
     if name not in OWN_SCALES and suffix is None:
         # Of a wide channel its name is its unit: `distance_m`.
-        known = RULES.get(name)
-        return replace(known, sources=(name,), factor=1.0) if known and known.channel.unit else None
+        rule = RULES.get(name)
+        return replace(rule, sources=(name,), factor=1.0) if rule and rule.channel.unit else None
     if name in ("latitude_deg", "longitude_deg"):
         return replace(RULES[name], sources=(name,), factor=1.0)
     unit, scale = OWN_UNITS[suffix] if suffix else ("", 1.0)

@@ -70,22 +70,28 @@ class Table:
         self._times = {place for place in (at, since[0] if since else None) if place is not None}
         self._measures = {
             place: measure
-            for place, told in enumerate(layout.names[:COLUMNS_MAX])
-            if place not in self._times and (measure := measured(layout, told)) is not None
+            for place, column_name in enumerate(layout.names[:COLUMNS_MAX])
+            if place not in self._times and (measure := measured(layout, column_name)) is not None
         }
 
     def read(self, answer: TableAnswer | None) -> Outcome:
         """Rides, or what must be said before."""
-        names = [told for place, told in enumerate(self._layout.names) if place not in self._times]
+        names = [
+            column_names
+            for place, column_names in enumerate(self._layout.names)
+            if place not in self._times
+        ]
         columns = self._columns()
         if not columns:
-            told = ", ".join(names[:12])
-            return rejected("no_records", f"No column of {told} is a known channel or a number.")
+            column_names = ", ".join(names[:12])
+            return rejected(
+                "no_records", f"No column of {column_names} is a known channel or a number."
+            )
         zone = zone_of(answer.time_zone) if answer and answer.time_zone else None
         layout = self._layout
         if layout.rows_are_time and layout.row_s is None:
-            said = answer.rows_per_second if answer else None
-            layout = replace(layout, row_s=row_spacing(layout, columns, said))
+            rows_per_second = answer.rows_per_second if answer else None
+            layout = replace(layout, row_s=row_spacing(layout, columns, rows_per_second))
         times = times_of(layout, self._body, self._name, zone)
         question = self._question(times, layout)
         if missing := lacking(question, answer):
@@ -97,28 +103,28 @@ class Table:
 
     def _columns(self) -> dict[int, Values]:
         """The numbers of every column that has any, by place."""
-        found = {}
+        columns = {}
         for place, _ in enumerate(self._layout.names[:COLUMNS_MAX]):
             if place in self._times:
                 continue
             cells = (row[place] if place < len(row) else "" for row in self._body)
             values = np.array([number(cell, self._comma) for cell in cells], np.float64)
             if np.isfinite(values).any():
-                found[place] = values
-        return found
+                columns[place] = values
+        return columns
 
     def _unread(self, columns: Mapping[int, Values]) -> dict[str, int]:
         """Cells that are there and no number, by column."""
-        found = {}
+        unread = {}
         for place, name in enumerate(self._layout.names):
             if place in self._times:
                 continue
             values = columns.get(place)
-            there = sum(1 for row in self._body if place < len(row) and row[place].strip())
-            known = 0 if values is None else int(np.isfinite(values).sum())
-            if there > known:
-                found[name] = there - known
-        return found
+            filled = sum(1 for row in self._body if place < len(row) and row[place].strip())
+            numeric = 0 if values is None else int(np.isfinite(values).sum())
+            if filled > numeric:
+                unread[name] = filled - numeric
+        return unread
 
     def _question(self, times: Times, layout: Layout) -> TableQuestion:
         header = "\x1f".join([layout.kind, *(words(name) for name in layout.names)])
@@ -133,8 +139,8 @@ class Table:
                 columns.append(TableColumn(name, samples=samples))
                 continue
             channel = measure.rule.channel.name
-            asked = measure.choices if measure.unit is None else ()
-            columns.append(TableColumn(name, channel, measure.unit, asked, samples))
+            choices = measure.choices if measure.unit is None else ()
+            columns.append(TableColumn(name, channel, measure.unit, choices, samples))
         return TableQuestion(
             hashlib.sha256(header.encode()).hexdigest(),
             layout.kind,
@@ -168,19 +174,21 @@ class Table:
             rides += rides_of_columns(times.time_s[rows], own, rules, None, unread)
             unread = {}
         if not rides:
-            told = f"None of the {len(self._body)} rows has a believable time and a value."
-            return rejected("no_valid_time", told)
-        found = tuple(
+            sentence = f"None of the {len(self._body)} rows has a believable time and a value."
+            return rejected("no_valid_time", sentence)
+        read_rides = tuple(
             replace(ride, intake=replace(ride.intake, taken_as=taken_as)) if ride.intake else ride
             for ride in rides
         )
         short = sum(len(row) < len(layout.names) for row in self._body)
         if short:
-            kept = sum(len(ride.rows.times_us) for ride in found)
+            row_count = sum(len(ride.rows.times_us) for ride in read_rides)
             share = 1.0 - short / max(len(self._body), 1)
-            detail = f"{short} of {len(self._body)} rows are cut short; {kept} rows were saved."
-            return Outcome(PARTIAL, found, "truncated", detail, None, share)
-        return Outcome(COMPLETE, found, completeness=1.0)
+            detail = (
+                f"{short} of {len(self._body)} rows are cut short; {row_count} rows were saved."
+            )
+            return Outcome(PARTIAL, read_rides, "truncated", detail, None, share)
+        return Outcome(COMPLETE, read_rides, completeness=1.0)
 
     def _ruled(
         self, columns: Mapping[int, Values], answer: TableAnswer
@@ -190,13 +198,13 @@ class Table:
         rules: dict[str, FieldRule] = {}
         others: dict[str, Column] = {}
         for place, values in columns.items():
-            told = self._layout.names[place]
+            column_name = self._layout.names[place]
             measure = self._measures.get(place)
             channel = measure.rule.channel.name if measure else ""
             if measure is None or channel in rules:
-                others[own_name(told, others)] = Column(values, "", step_of(values))
+                others[own_name(column_name, others)] = Column(values, "", step_of(values))
                 continue
-            unit = measure.unit if measure.unit is not None else answer.units[told]
+            unit = measure.unit if measure.unit is not None else answer.units[column_name]
             rule, added = measure.in_unit(unit)
             if added:
                 values, rule = values * rule.factor + added, replace(rule, factor=1.0)
@@ -214,13 +222,13 @@ class Table:
         return read, tuple(rules.values())
 
 
-def measured(layout: Layout, told: str) -> Measure | None:
+def measured(layout: Layout, column_name: str) -> Measure | None:
     """What a column is: by the layout's format, else by its own header."""
-    known = layout.units.get(words(told))
-    if known is None:
-        return measure_of(told)
-    channel, unit = known
-    choices = layout.choices.get(words(told), ())
+    given_unit = layout.units.get(words(column_name))
+    if given_unit is None:
+        return measure_of(column_name)
+    channel, unit = given_unit
+    choices = layout.choices.get(words(column_name), ())
     if channel not in RULES:
         rule = FieldRule(ChannelSpec(channel, unit or "", 0.1), (channel,), -3276, 3276)
         return Measure(rule, unit)
@@ -228,9 +236,9 @@ def measured(layout: Layout, told: str) -> Measure | None:
     return replace(measure, choices=choices) if choices else measure
 
 
-def own_name(told: str, taken: Mapping[str, object]) -> str:
+def own_name(column_name: str, taken: Mapping[str, object]) -> str:
     """A name for a column that no rule knows; not one that means something here."""
-    name = "_".join(words(told).encode("ascii", "ignore").decode().split())[:36]
+    name = "_".join(words(column_name).encode("ascii", "ignore").decode().split())[:36]
     if not name[:1].isalpha() or own_rule(name) is not None or name in RULES or name in taken:
         name = f"column_{name}".rstrip("_")
     number, free = 1, name
@@ -247,13 +255,13 @@ def row_spacing(
 
     What the speed adds up to between two kilometres is what the odometer says, at one rate.
     """
-    said = 1.0 / rows_per_second if rows_per_second else None
+    given_s = 1.0 / rows_per_second if rows_per_second else None
     places = [words(name) for name in layout.names]
     if "s" not in places or "d" not in places:
-        return said
+        return given_s
     speed, distance = columns.get(places.index("s")), columns.get(places.index("d"))
     if speed is None or distance is None:
-        return said
+        return given_s
     steps = np.diff(distance)
     rates = []
     for rows in np.array_split(np.flatnonzero(steps >= 0), max(1, len(steps) // RATE_ROWS)):
@@ -261,10 +269,10 @@ def row_spacing(
         if ridden > RATE_DISTANCE and summed > 0:
             rates.append(summed / 3600.0 / ridden)
     if not rates:
-        return said
+        return given_s
     rate = float(np.median(rates))
     near = min(LOGGER_RATES_HZ, key=lambda one: abs(one - rate))
-    return 1.0 / near if abs(rate - near) <= NEAR * near else said
+    return 1.0 / near if abs(rate - near) <= NEAR * near else given_s
 
 
 def parts_of(
@@ -276,6 +284,6 @@ def parts_of(
     if not layout.rows_are_time or "d" not in places or places.index("d") not in columns:
         return [rows]
     distance = columns[places.index("d")]
-    there = np.flatnonzero(np.isfinite(distance))
-    back = (np.diff(distance[there]) < 0) & (distance[there][1:] < 0.05)
-    return np.split(rows, there[1:][back])
+    valid = np.flatnonzero(np.isfinite(distance))
+    back = (np.diff(distance[valid]) < 0) & (distance[valid][1:] < 0.05)
+    return np.split(rows, valid[1:][back])

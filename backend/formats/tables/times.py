@@ -78,18 +78,18 @@ def moments(name: str, cells: Sequence[str], zone: tzinfo | None) -> Times:
     """Dates with their zone, and such without in `zone`."""
     is_utc = "utc" in name.lower()
     naive = False
-    found = np.full(len(cells), np.nan)
+    seconds = np.full(len(cells), np.nan)
     for row, cell in enumerate(cells):
         value = number(cell)
         if value == value:
-            found[row] = value / 1000.0 if value >= UNIX_MS[0] else value
+            seconds[row] = value / 1000.0 if value >= UNIX_MS[0] else value
             continue
         moment = iso_moment(cell)
         if moment is not None and moment.tzinfo is None:
             naive |= not is_utc
             moment = moment.replace(tzinfo=UTC if is_utc or zone is None else zone)
-        found[row] = unix_seconds(moment)
-    return Times(found, naive)
+        seconds[row] = unix_seconds(moment)
+    return Times(seconds, naive)
 
 
 def exact(times: Times, since: tuple[int, float] | None, body: Sequence[Sequence[str]]) -> Times:
@@ -98,10 +98,10 @@ def exact(times: Times, since: tuple[int, float] | None, body: Sequence[Sequence
         return times
     place, scale = since
     seconds = column(body, place) * scale
-    there = np.flatnonzero(np.isfinite(seconds) & np.isfinite(times.time_s))
-    if not len(there):
+    valid = np.flatnonzero(np.isfinite(seconds) & np.isfinite(times.time_s))
+    if not len(valid):
         return times
-    first = int(there[0])
+    first = int(valid[0])
     return Times(seconds + (times.time_s[first] - seconds[first]), times.naive)
 
 
@@ -122,7 +122,7 @@ def row_seconds(
     # Over midnight a count of the day begins anew.
     steps = np.diff(seconds, prepend=seconds[:1])
     seconds = seconds + DAY_S * np.cumsum(np.nan_to_num(steps) < -DAY_S / 2)
-    pauses = [place for place, told in enumerate(layout.names) if told.lower() == layout.pause]
+    pauses = [place for place, name in enumerate(layout.names) if name.lower() == layout.pause]
     if layout.pause and pauses:
         stood = np.nan_to_num(column(body, pauses[0]))
         seconds = seconds + np.concatenate(([0.0], np.cumsum(stood)[:-1]))[: len(seconds)]
@@ -131,21 +131,21 @@ def row_seconds(
 
 def clock_seconds(cell: str) -> float:
     """`1:02:03` or `2:03` -> seconds, NaN for what is neither."""
-    found = CLOCK.fullmatch(cell)
-    if found is None:
+    match = CLOCK.fullmatch(cell)
+    if match is None:
         return float("nan")
-    first, second, third = found.groups()
+    first, second, third = match.groups()
     if third is None:
         return 60.0 * int(first) + int(second)
     return 3600.0 * int(first) + 60.0 * int(second) + float(third.replace(",", "."))
 
 
-def started(seconds: Values, told: str, name: str, zone: tzinfo | None) -> Times:
+def started(seconds: Values, text: str, name: str, zone: tzinfo | None) -> Times:
     """Seconds since the beginning as Unix time: by the file's start, else its name, else none.
 
     A count of the day, in a file whose name has the date, is of that day.
     """
-    moment, of = iso_moment(told), None
+    moment, of = iso_moment(text), None
     if moment is None:
         moment, of = moment_of_name(name), FILE_NAME
     if moment is None:
@@ -154,18 +154,18 @@ def started(seconds: Values, told: str, name: str, zone: tzinfo | None) -> Times
         return Times(seconds - shift + NOWHEN_S, start_of=NO_DATE)
     naive = moment.tzinfo is None
     aware = moment.replace(tzinfo=zone or UTC) if naive else moment
-    there = seconds[np.isfinite(seconds)]
-    begin = float(there[0]) if len(there) else 0.0
+    valid = seconds[np.isfinite(seconds)]
+    begin = float(valid[0]) if len(valid) else 0.0
     return Times(seconds - begin + unix_seconds(aware), naive, of)
 
 
 def moment_of_name(name: str) -> datetime | None:
     """The date and time in a file's name, None for none."""
-    found = NAME_MOMENT.search(name)
-    if found is None:
+    match = NAME_MOMENT.search(name)
+    if match is None:
         return None
     try:
-        return datetime(*map(int, found.groups()))  # type: ignore[arg-type]
+        return datetime(*map(int, match.groups()))  # type: ignore[arg-type]
     except ValueError:
         return None
 

@@ -40,13 +40,13 @@ SPORT_LENGTH_MAX = 32
 def read_gpx(data: bytes) -> Outcome:
     """A GPX file -> what came of it. Never raises on any bytes."""
     reader = GpxReader()
-    listener = Listener(reader.opened, reader.closed, reader.told, reader.point)
+    listener = Listener(reader.opened, reader.closed, reader.text_read, reader.point)
     try:
         walked = walk(as_utf8(data), SHAPE, listener)
     except UnsafeXml:
         return refused()
     for track in reader.tracks:
-        track.noted = replace(track.noted, instruments=reader.instruments)
+        track.metadata = replace(track.metadata, instruments=reader.instruments)
     tracks = [track for track in reader.tracks if track.points.rows]
     return outcome_of(tracks, walked, len(data), "a route, not the record of a ride")
 
@@ -64,8 +64,8 @@ class GpxReader:
     def opened(self, name: str, attributes: Mapping[str, str]) -> None:
         """A file, a track or a segment begins."""
         if name == "gpx" and attributes.get("creator") and len(self.instruments) < INSTRUMENTS_MAX:
-            told = Instrument("recorder", product=attributes["creator"][:100])
-            self.instruments = (*self.instruments, told)
+            recorder = Instrument("recorder", product=attributes["creator"][:100])
+            self.instruments = (*self.instruments, recorder)
         elif name == "trk":
             self.tracks.append(Track(self._clock))
             self._last_s = float("nan")
@@ -75,7 +75,7 @@ class GpxReader:
     def closed(self, name: str) -> None:
         """Nothing is known only then."""
 
-    def told(self, parent: str, name: str, text: str) -> None:
+    def text_read(self, parent: str, name: str, text: str) -> None:
         """What kind of ride a track is."""
         if name == "type" and parent == "trk" and self.tracks:
             word = text.lower().replace(" ", "_").replace("-", "_")[:SPORT_LENGTH_MAX]
@@ -87,9 +87,9 @@ class GpxReader:
             self.tracks.append(Track(self._clock))
         track = self.tracks[-1]
         time_s = track.add(texts)
-        if self._new_segment and self._last_s < time_s and len(track.noted.pauses) < PAUSES_MAX:
-            pauses = (*track.noted.pauses, Pause(self._last_s, time_s))
-            track.noted = DeviceMetadata(pauses=pauses)
+        if self._new_segment and self._last_s < time_s and len(track.metadata.pauses) < PAUSES_MAX:
+            pauses = (*track.metadata.pauses, Pause(self._last_s, time_s))
+            track.metadata = DeviceMetadata(pauses=pauses)
         self._new_segment = False
         if isfinite(time_s):
             self._last_s = time_s

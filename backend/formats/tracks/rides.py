@@ -74,13 +74,13 @@ class Track:
     clock: Clock
     sport: str | None = None
     points: Growing = field(default_factory=Growing)
-    noted: DeviceMetadata = field(default_factory=DeviceMetadata)
+    metadata: DeviceMetadata = field(default_factory=DeviceMetadata)
 
     def add(self, texts: Texts) -> float:
         """A point; its Unix time, NaN for none."""
         cells, time_s = {}, float("nan")
-        for told, text in texts.items():
-            name = told.lower()
+        for field_name, text in texts.items():
+            name = field_name.lower()
             if name == "time":
                 time_s = self.clock.unix_s(text)
                 cells[TIME] = repr(time_s)
@@ -90,9 +90,9 @@ class Track:
         return time_s
 
 
-def channel_name(told: str) -> str:
+def channel_name(field_name: str) -> str:
     """A name as our channels have them."""
-    name = "".join(c if c.isascii() and c.isalnum() else "_" for c in told.lower()).strip("_")
+    name = "".join(c if c.isascii() and c.isalnum() else "_" for c in field_name.lower()).strip("_")
     return name[:40] if name[:1].isalpha() else f"field_{name}"[:40]
 
 
@@ -107,14 +107,14 @@ def rides_of(track: Track) -> list[ImportedRide]:
         for name, values in columns.items()
     }
     fields = tuple(as_written(rule, columns) for rule in rules_of(named, track.sport))
-    found = rides_of_columns(times, columns, fields, track.sport, track.points.unread)
+    rides = rides_of_columns(times, columns, fields, track.sport, track.points.unread)
     return [
         replace(
             ride,
-            noted=within(track.noted, *ride.span_s),
+            metadata=within(track.metadata, *ride.span_s),
             intake=replace(ride.intake or Intake(), taken_as=track.clock.taken_as),
         )
-        for ride in found
+        for ride in rides
     ]
 
 
@@ -125,19 +125,19 @@ def outcome_of(tracks: Sequence[Track], walked: Walked, length: int, what: str) 
         return rejected("too_many_rows", f"{rows} points; at most {ROWS_MAX} are read.")
     rides = tuple(ride for track in tracks for ride in rides_of(track))
     where = "" if walked.offset is None else f" at byte {walked.offset} of {length}"
-    reason = "The file ends in the middle" if walked.trouble == TRUNCATED else "No XML"
+    reason = "The file ends in the middle" if walked.error == TRUNCATED else "No XML"
     if not rides:
         if rows:
-            told = f"None of the {rows} points has a believable time and a value: {what}."
-            return rejected("no_valid_time", told, walked.offset)
-        told = f"{reason}{where}, and no" if walked.trouble else "There is no"
-        return rejected("no_records", f"{told} point of a track was found.", walked.offset)
-    if walked.trouble is None:
+            sentence = f"None of the {rows} points has a believable time and a value: {what}."
+            return rejected("no_valid_time", sentence, walked.offset)
+        sentence = f"{reason}{where}, and no" if walked.error else "There is no"
+        return rejected("no_records", f"{sentence} point of a track was found.", walked.offset)
+    if walked.error is None:
         return Outcome(COMPLETE, rides, completeness=1.0)
     share = walked.points / max(walked.points_begun, walked.points, 1)
     about = f"{floor(1000.0 * share) / 10.0} % of the points"
     detail = f"{reason}{where}. {walked.points} points were saved, {about}."
-    return Outcome(PARTIAL, rides, walked.trouble, detail, walked.offset, share)
+    return Outcome(PARTIAL, rides, walked.error, detail, walked.offset, share)
 
 
 def refused() -> Outcome:

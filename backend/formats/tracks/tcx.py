@@ -36,7 +36,7 @@ TRIGGERS = {
 
 
 @dataclass
-class LapTold:
+class RecordedLap:
     """A lap as the file has it. first_s, last_s: times of its points."""
 
     start_s: float
@@ -50,7 +50,7 @@ class Activity:
     """One activity as it comes."""
 
     track: Track
-    laps: list[LapTold] = field(default_factory=list)
+    laps: list[RecordedLap] = field(default_factory=list)
     device: dict[str, str] = field(default_factory=dict)
 
 
@@ -58,7 +58,7 @@ def read_tcx(data: bytes, answer: TableAnswer | None = None) -> Outcome:
     """A TCX file -> what came of it. Never raises on any bytes. answer: the zone, where asked."""
     zone = zone_of(answer.time_zone) if answer and answer.time_zone else None
     reader = TcxReader(clock := Clock(zone or UTC))
-    listener = Listener(reader.opened, reader.closed, reader.told, reader.point)
+    listener = Listener(reader.opened, reader.closed, reader.text_read, reader.point)
     try:
         walked = walk(as_utf8(data), SHAPE, listener)
     except UnsafeXml:
@@ -71,7 +71,7 @@ def read_tcx(data: bytes, answer: TableAnswer | None = None) -> Outcome:
         detail = f"A {question.kind} that does not say: time_zone. Say it once, and every such "
         return replace(rejected(NEEDS_MAPPING, f"{detail}file is read."), question=question)
     for activity in activities:
-        activity.track.noted = DeviceMetadata(
+        activity.track.metadata = DeviceMetadata(
             laps=laps_of(activity), instruments=device_of(activity)
         )
     tracks = [activity.track for activity in activities]
@@ -90,8 +90,8 @@ class TcxReader:
     def opened(self, name: str, attributes: Mapping[str, str]) -> None:
         """An activity, a course, a lap or a device begins."""
         if name == "Activity":
-            told = attributes.get("Sport", "").lower()[:SPORT_LENGTH_MAX]
-            self.activities.append(Activity(Track(self._clock, SPORTS.get(told, told or None))))
+            sport = attributes.get("Sport", "").lower()[:SPORT_LENGTH_MAX]
+            self.activities.append(Activity(Track(self._clock, SPORTS.get(sport, sport or None))))
             self._in_course = False
         elif name == "Course":
             self.courses += 1
@@ -100,7 +100,7 @@ class TcxReader:
             start_s = self._clock.unix_s(attributes.get("StartTime", ""))
             laps = self._latest().laps
             if len(laps) < LAPS_MAX:
-                laps.append(LapTold(start_s))
+                laps.append(RecordedLap(start_s))
         elif name == "Creator":
             self._in_device = True
 
@@ -109,7 +109,7 @@ class TcxReader:
         self._in_course &= name != "Course"
         self._in_device &= name != "Creator"
 
-    def told(self, parent: str, name: str, text: str) -> None:
+    def text_read(self, parent: str, name: str, text: str) -> None:
         """Of a lap, or of the device."""
         if self._in_course or not self.activities:
             return
@@ -147,45 +147,45 @@ def question_of(activities: Sequence[Activity]) -> TableQuestion:
 
 def laps_of(activity: Activity) -> tuple[Lap, ...]:
     """Each lap from its start to the next one's; the last to its last point."""
-    told = [lap for lap in activity.laps if isfinite(lap.start_s) or isfinite(lap.first_s)]
-    starts = [lap.start_s if isfinite(lap.start_s) else lap.first_s for lap in told]
-    found = []
-    for place, lap in enumerate(told):
-        timer_s = known(lap.texts.get("TotalTimeSeconds"))
+    recorded = [lap for lap in activity.laps if isfinite(lap.start_s) or isfinite(lap.first_s)]
+    starts = [lap.start_s if isfinite(lap.start_s) else lap.first_s for lap in recorded]
+    laps = []
+    for place, lap in enumerate(recorded):
+        timer_s = number_or_none(lap.texts.get("TotalTimeSeconds"))
         end_s = lap.last_s if isfinite(lap.last_s) else starts[place] + (timer_s or 0.0)
-        if place + 1 < len(told) and starts[place + 1] >= end_s:
+        if place + 1 < len(recorded) and starts[place + 1] >= end_s:
             end_s = starts[place + 1]
         if end_s > starts[place]:
-            found.append(
+            laps.append(
                 Lap(
                     starts[place],
                     end_s,
                     TRIGGERS.get(lap.texts.get("TriggerMethod", "")),
                     timer_s,
-                    known(lap.texts.get("DistanceMeters")),
-                    known(lap.texts.get("Calories")),
+                    number_or_none(lap.texts.get("DistanceMeters")),
+                    number_or_none(lap.texts.get("Calories")),
                 )
             )
-    return tuple(found)
+    return tuple(laps)
 
 
 def device_of(activity: Activity) -> tuple[Instrument, ...]:
     """The device that recorded; nothing where the file names none."""
-    told = activity.device
-    if not told:
+    fields = activity.device
+    if not fields:
         return ()
-    version = [told[name] for name in ("VersionMajor", "VersionMinor") if name in told]
+    version = [fields[name] for name in ("VersionMajor", "VersionMinor") if name in fields]
     return (
         Instrument(
             "recorder",
-            product=told.get("Name"),
-            serial_number=told.get("UnitId"),
+            product=fields.get("Name"),
+            serial_number=fields.get("UnitId"),
             software_version=".".join(version) or None,
         ),
     )
 
 
-def known(text: str | None) -> float | None:
+def number_or_none(text: str | None) -> float | None:
     """A number, None for a missing one and for what is none."""
     value = number(text or "")
     return value if isfinite(value) else None

@@ -18,7 +18,7 @@ TEXT_CHARACTERS_MAX = 2000
 ENCODING = re.compile(rb"""^\s*<\?xml[^>]{0,200}?encoding\s*=\s*["']([A-Za-z0-9._-]{1,40})["']""")
 MARKS = ((b"\xef\xbb\xbf", "utf-8"), (b"\xff\xfe", "utf-16-le"), (b"\xfe\xff", "utf-16-be"))
 # Opens whatever is read behind damage, where the real beginnings are behind us.
-STAND_IN = b"<behind>"
+PLACEHOLDER = b"<behind>"
 TRUNCATED, DAMAGED = "truncated", "damaged"
 
 Texts = dict[str, str]
@@ -49,24 +49,24 @@ class Shape:
 class Listener:
     """Who hears what the walk meets.
 
-    opened: a part with its attributes. closed: a part. told: text of an element that is no point's,
-    with the name around it. point: texts of a whole point by name; `Value` under its parent's.
+    opened: a part with its attributes. closed: a part. text_read: text of an element outside of the
+    points, with its parent's name. point: texts of a point by name; `Value` under its parent's.
     """
 
     opened: Callable[[str, Mapping[str, str]], None]
     closed: Callable[[str], None]
-    told: Callable[[str, str, str], None]
+    text_read: Callable[[str, str, str], None]
     point: Callable[[Texts], None]
 
 
 @dataclass
 class Walked:
-    """How the walk went. trouble: what was first met, and its byte. points: whole ones of those
+    """How the walk went. error: what was first met, and its byte. points: whole ones of those
     that began."""
 
     points: int = 0
     points_begun: int = 0
-    trouble: str | None = None
+    error: str | None = None
     offset: int | None = None
 
 
@@ -75,8 +75,8 @@ def as_utf8(data: bytes) -> bytes:
     for mark, encoding in MARKS:
         if data.startswith(mark):
             return data[len(mark) :].decode(encoding, errors="replace").encode(errors="replace")
-    told = ENCODING.match(data[:400])
-    encoding = told.group(1).decode() if told else "utf-8"
+    declared = ENCODING.match(data[:400])
+    encoding = declared.group(1).decode() if declared else "utf-8"
     if encoding.lower() in ("utf-8", "us-ascii"):
         encoding = "utf-8"
     try:
@@ -96,13 +96,13 @@ def walk(text: bytes, shape: Shape, listener: Listener) -> Walked:
         end = reader.read(text, at)
         if end is None:
             return walked
-        if walked.trouble is None:
-            walked.trouble = TRUNCATED if reader.cut_short else DAMAGED
+        if walked.error is None:
+            walked.error = TRUNCATED if reader.cut_short else DAMAGED
             walked.offset = min(end, len(text))
-        found = openings.search(text, max(end, at + 1))
-        if found is None:
+        opening = openings.search(text, max(end, at + 1))
+        if opening is None:
             return walked
-        at, begin = found.start(), STAND_IN
+        at, begin = opening.start(), PLACEHOLDER
     return walked
 
 
@@ -140,8 +140,8 @@ class Reader:
     def _entity(self, *_: object) -> None:
         raise UnsafeXml
 
-    def _start(self, told: str, attributes: Mapping[str, str]) -> None:
-        name = told.rpartition(":")[2]
+    def _start(self, qualified_name: str, attributes: Mapping[str, str]) -> None:
+        name = qualified_name.rpartition(":")[2]
         self._names.append(name)
         self._texts, self._leaf = [], True
         if name == self._shape.point:
@@ -149,8 +149,8 @@ class Reader:
         elif self._point is None and name in self._shape.parts:
             self._listener.opened(name, attributes)
 
-    def _end(self, told: str) -> None:
-        name = told.rpartition(":")[2]
+    def _end(self, qualified_name: str) -> None:
+        name = qualified_name.rpartition(":")[2]
         if self._names:
             self._names.pop()
         parent = self._names[-1] if self._names else ""
@@ -167,7 +167,7 @@ class Reader:
         elif name in self._shape.parts:
             self._listener.closed(name)
         elif text:
-            self._listener.told(parent, name, text)
+            self._listener.text_read(parent, name, text)
 
     def _text(self, text: str) -> None:
         if sum(map(len, self._texts)) < TEXT_CHARACTERS_MAX:

@@ -36,12 +36,12 @@ def table_of(system: FisSystem) -> FuzzyTable:
     if kind not in METHODS:
         line = system.lines.get("type", 0)
         refuse(line, f"Type is {kind[:40]!r}; the unit has 'mamdani' and 'sugeno'.")
-    for option, wanted in METHODS[kind].items():
-        found = system.options.get(option, "").lower()
-        if found != wanted:
+    for option, expected in METHODS[kind].items():
+        given = system.options.get(option, "").lower()
+        if given != expected:
             line = system.lines.get(option, 0)
-            told = f"{option} is {found[:40]!r}; with {kind} the unit has {wanted!r} alone."
-            refuse(line, told)
+            sentence = f"{option} is {given[:40]!r}; with {kind} the unit has {expected!r} alone."
+            refuse(line, sentence)
     if len(system.inputs) != 2 or len(system.outputs) != 1:
         refuse(0, "The unit's law has two inputs, speed and torque rate, and one output.")
     speed_first = not is_speed_second(system.inputs)
@@ -59,7 +59,9 @@ def table_of(system: FisSystem) -> FuzzyTable:
             refuse(rule.line, "Another rule is for the same two sets.")
         rules[row][column] = LABELS[gain_order[result - 1]]
     complete = [[cell for cell in row if cell is not None] for row in rules]
-    if missing := sum(len(row) - len(known) for row, known in zip(rules, complete, strict=True)):
+    if missing := sum(
+        len(row) - len(rules_given) for row, rules_given in zip(rules, complete, strict=True)
+    ):
         refuse(0, f"{missing} of the 25 pairs of sets have no rule.")
     try:
         return FuzzyTable(
@@ -83,8 +85,8 @@ def is_speed_second(inputs: Sequence[FisVariable]) -> bool:
 
 def table_name(name: str) -> str:
     """A system's name, cut to what a unit holds."""
-    seen = "".join(character for character in name if character.isprintable())
-    return seen.encode()[:NAME_BYTES_MAX].decode(errors="ignore").strip() or "fis"
+    printable = "".join(character for character in name if character.isprintable())
+    return printable.encode()[:NAME_BYTES_MAX].decode(errors="ignore").strip() or "fis"
 
 
 def by_peak(variable: FisVariable, peaks: Sequence[float]) -> tuple[list[int], list[float]]:
@@ -110,11 +112,11 @@ def input_points(variable: FisVariable) -> tuple[list[int], list[float]]:
         if left != right and not ((is_first and left <= low) or (is_last and right >= high)):
             refuse(one.line, f"{one.label} is flat between {left:g} and {right:g}.")
         if is_first and points[0] > low and left > low:
-            told = f"below {points[0]:g} no rule acts fully: draw a shoulder"
-            refuse(one.line, f"{one.label}: {told}, trapmf [{low:g} {low:g} ...].")
+            advice = f"below {points[0]:g} no rule acts fully: draw a shoulder"
+            refuse(one.line, f"{one.label}: {advice}, trapmf [{low:g} {low:g} ...].")
         if is_last and points[-1] < high and right < high:
-            told = f"above {points[-1]:g} no rule acts fully: draw a shoulder"
-            refuse(one.line, f"{one.label}: {told}, trapmf [... {high:g} {high:g}].")
+            advice = f"above {points[-1]:g} no rule acts fully: draw a shoulder"
+            refuse(one.line, f"{one.label}: {advice}, trapmf [... {high:g} {high:g}].")
     require_chain(in_order, points)
     return places, points
 
@@ -168,13 +170,13 @@ def require_chain(sets: Sequence[FisSet], points: Sequence[float]) -> None:
             (other.numbers[0], point, other),
         ):
             if not near(foot, peak, following - point):
-                told = f"ends at {foot:g} and not where its neighbour is full, at {peak:g}"
-                refuse(owner.line, f"{owner.label} {told}: the sets do not sum to one.")
+                fault = f"ends at {foot:g} and not where its neighbour is full, at {peak:g}"
+                refuse(owner.line, f"{owner.label} {fault}: the sets do not sum to one.")
 
 
-def near(found: float, wanted: float, gap: float) -> bool:
+def near(value: float, expected: float, gap: float) -> bool:
     """Whether a foot is where it belongs, up to a tool's rounding."""
-    return abs(found - wanted) <= FOOT_SHARE * abs(gap)
+    return abs(value - expected) <= FOOT_SHARE * abs(gap)
 
 
 def checked(rule: FisRule) -> tuple[int, int, int]:

@@ -75,9 +75,9 @@ class FisSystem:
 def refuse(line: int, message: str, code: str = "bad_fis") -> NoReturn:
     """Raises InvalidRequest that names the line; line 0 is the file as a whole."""
     place = f"line {line}" if line else "file"
-    told = f"Line {line}: {message}" if line else message
+    sentence = f"Line {line}: {message}" if line else message
     raise InvalidRequest(
-        f"The .fis file cannot be used. {told}", code, [FieldError(place, code, told)]
+        f"The .fis file cannot be used. {sentence}", code, [FieldError(place, code, sentence)]
     )
 
 
@@ -122,16 +122,16 @@ def split(text: str) -> dict[str, list[tuple[int, str]]]:
 
 def entries(section: list[tuple[int, str]]) -> list[tuple[int, str, str]]:
     """`Key=Value` of a section: line, key in lower case, value. Raises InvalidRequest."""
-    found: dict[str, tuple[int, str, str]] = {}
+    entries_by_name: dict[str, tuple[int, str, str]] = {}
     for number, line in section[1:]:
         key, equals, value = line.partition("=")
         key = key.strip().lower()
         if not equals:
             refuse(number, f"{line[:40]!r} is not of the form Name=Value.")
-        if key in found:
+        if key in entries_by_name:
             refuse(number, f"{key} is there twice.")
-        found[key] = (number, key, value.strip())
-    return list(found.values())
+        entries_by_name[key] = (number, key, value.strip())
+    return list(entries_by_name.values())
 
 
 def unquoted(value: str) -> str:
@@ -141,25 +141,25 @@ def unquoted(value: str) -> str:
 
 def variable(section: list[tuple[int, str]]) -> FisVariable:
     """An input or an output. Raises InvalidRequest."""
-    head, name, span, told = section[0][0], "", None, 0
+    head, name, span, declared = section[0][0], "", None, 0
     sets: dict[int, FisSet] = {}
     for number, key, value in entries(section):
         if key == "name":
             name = unquoted(value)
         elif key == "range":
-            told, span = number, numbers(number, value.removeprefix("[").removesuffix("]"))
+            declared, span = number, numbers(number, value.removeprefix("[").removesuffix("]"))
             if len(span) != 2 or not span[0] < span[1]:
                 refuse(number, "Range is two numbers, the lower one first.")
         elif re.fullmatch(r"mf[1-9][0-9]?", key):
-            found = _SET.fullmatch(value)
-            if found is None:
+            match = _SET.fullmatch(value)
+            if match is None:
                 refuse(number, f"{value[:60]!r} is not of the form 'name':'kind',[numbers].")
-            sets[int(key[2:])] = FisSet(found[1], found[2], numbers(number, found[3]), number)
+            sets[int(key[2:])] = FisSet(match[1], match[2], numbers(number, match[3]), number)
     if span is None:
         refuse(head, "This variable has no Range.")
     if sorted(sets) != list(range(1, len(sets) + 1)):
         refuse(head, "The sets of this variable are not numbered MF1, MF2, and so on.")
-    return FisVariable(name, span[0], span[1], tuple(sets[n] for n in sorted(sets)), told)
+    return FisVariable(name, span[0], span[1], tuple(sets[n] for n in sorted(sets)), declared)
 
 
 def numbers(line: int, text: str) -> tuple[float, ...]:
@@ -167,7 +167,7 @@ def numbers(line: int, text: str) -> tuple[float, ...]:
     words = text.replace(",", " ").split()
     if len(words) > NUMBERS_MAX:
         refuse(line, f"There are more than {NUMBERS_MAX} numbers.")
-    found = []
+    values = []
     for word in words:
         try:
             number = float(word)
@@ -175,23 +175,23 @@ def numbers(line: int, text: str) -> tuple[float, ...]:
             refuse(line, f"{word[:40]!r} is no number.")
         if not math.isfinite(number):
             refuse(line, f"{word[:40]} is no finite number.")
-        found.append(number)
-    return tuple(found)
+        values.append(number)
+    return tuple(values)
 
 
 def rule(line: int, text: str) -> FisRule:
     """One rule. Raises InvalidRequest."""
-    found = _RULE.fullmatch(text)
-    if found is None:
+    match = _RULE.fullmatch(text)
+    if match is None:
         refuse(line, f"{text[:60]!r} is not of the form `1 2, 3 (1) : 1`.")
-    inputs, outputs = (numbers(line, found[index]) for index in (1, 2))
-    weight = numbers(line, found[3])
+    inputs, outputs = (numbers(line, match[index]) for index in (1, 2))
+    weight = numbers(line, match[3])
     if len(weight) != 1 or any(number != int(number) for number in (*inputs, *outputs)):
         refuse(line, "A rule has whole numbers for its sets, and one weight.")
     return FisRule(
         tuple(int(number) for number in inputs),
         tuple(int(number) for number in outputs),
         weight[0],
-        int(found[4]) == 1,
+        int(match[4]) == 1,
         line,
     )

@@ -16,10 +16,10 @@ from backend.core.channels import Values
 from backend.core.described import described
 from backend.core.energy import DEMANDED
 from backend.core.ride import RideSummary, TimesUs, summarise
-from backend.rides.insight.distance import climb_of, way_of
+from backend.rides.insight.distance import climb_of, row_distances
 from backend.rides.insight.energy_split import energy_shares
 
-WAY_KM_MIN = 0.01
+DISTANCE_KM_MIN = 0.01
 """Below that, work by distance is the work of a start."""
 NoFigure = Literal[
     "no_speed",
@@ -91,7 +91,7 @@ class Stretch:
 
 def compared(a: Stretch, b: Stretch) -> list[Figure]:
     """Every figure of both."""
-    one, other = told_of(a), told_of(b)
+    one, other = figures_of_side(a), figures_of_side(b)
     return [
         Figure(name, unit, one[name], other[name], less(other[name].value, one[name].value))
         for name, unit in UNITS.items()
@@ -103,58 +103,62 @@ def less(value: float | None, than: float | None) -> float | None:
     return None if value is None or than is None else value - than
 
 
-def told_of(rows: Stretch) -> dict[str, FigureValue]:
+def figures_of_side(rows: Stretch) -> dict[str, FigureValue]:
     """The figures of one side by name."""
     summary = summarise(rows.values, rows.times_us, rows.period_us, rows.seconds)
-    told = {
+    figures = {
         "duration_s": FigureValue(summary.duration_s),
-        "moving_s": said(summary.moving_s, "no_speed"),
-        "distance_km": said(summary.distance_km, "no_way"),
-        "speed_kmh_mean": said(
+        "moving_s": value_or_reason(summary.moving_s, "no_speed"),
+        "distance_km": value_or_reason(summary.distance_km, "no_way"),
+        "speed_kmh_mean": value_or_reason(
             summary.speed_kmh_mean, "no_motion" if summary.moving_s is not None else "no_speed"
         ),
     }
     for source in SOURCES:
-        energy = energy_told(source, summary, rows.meaning)
-        told[f"{source}_wh"] = energy
-        told[f"{source}_wh_per_km"] = per_km(energy, told["distance_km"])
-    return told | on_the_way(rows, told)
+        energy = energy_figure(source, summary, rows.meaning)
+        figures[f"{source}_wh"] = energy
+        figures[f"{source}_wh_per_km"] = per_km(energy, figures["distance_km"])
+    return figures | per_distance_figures(rows, figures)
 
 
-def said(value: float | None, why: NoFigure) -> FigureValue:
+def value_or_reason(value: float | None, why: NoFigure) -> FigureValue:
     """A value, or why there is none."""
     return FigureValue(value, None if value is not None else why)
 
 
-def energy_told(source: str, summary: RideSummary, meaning: str | None) -> FigureValue:
+def energy_figure(source: str, summary: RideSummary, meaning: str | None) -> FigureValue:
     """An energy; a motor whose torque was only asked of it has none."""
     value: float | None = getattr(summary, f"{source}_wh")
     if value is not None:
         return FigureValue(value, unknown_s=getattr(summary, f"{source}_excluded_s"))
-    asked = source == "motor" and meaning == DEMANDED
-    return FigureValue(None, "only_asked" if asked else NO_POWER[source])
+    demanded_only = source == "motor" and meaning == DEMANDED
+    return FigureValue(None, "only_asked" if demanded_only else NO_POWER[source])
 
 
 def per_km(energy: FigureValue, distance: FigureValue) -> FigureValue:
     """An energy for a kilometre, or what it lacks."""
     if energy.value is None or distance.value is None:
         return FigureValue(None, energy.missing or distance.missing)
-    if distance.value < WAY_KM_MIN:
+    if distance.value < DISTANCE_KM_MIN:
         return FigureValue(None, "no_motion")
     return FigureValue(energy.value / distance.value, unknown_s=energy.unknown_s)
 
 
-def on_the_way(rows: Stretch, told: Mapping[str, FigureValue]) -> dict[str, FigureValue]:
+def per_distance_figures(
+    rows: Stretch, figures: Mapping[str, FigureValue]
+) -> dict[str, FigureValue]:
     """Ascent, and the motor's work over the rider's of the moments in which both are known."""
     start_s = rows.times_us / 1e6
-    way = way_of(rows.values, start_s, rows.seconds)
+    distances = row_distances(rows.values, start_s, rows.seconds)
     altitude = rows.values.get("altitude_m")
-    climb = climb_of(altitude, way, start_s) if way and altitude is not None else None
+    climb = climb_of(altitude, distances, start_s) if distances and altitude is not None else None
     everything = np.zeros(len(start_s), np.intp)
     (share,) = energy_shares(rows.values, rows.seconds, None, everything, 1)
-    lacking = [told[f"{source}_wh"].missing for source in ("motor", "rider")]
+    lacking = [figures[f"{source}_wh"].missing for source in ("motor", "rider")]
     why: NoFigure = next((reason for reason in lacking if reason), "no_rider_work")
     return {
-        "ascent_m": said(climb.ascent_m if climb else None, "no_height" if way else "no_way"),
-        "motor_per_rider": said(share.motor_per_rider, why),
+        "ascent_m": value_or_reason(
+            climb.ascent_m if climb else None, "no_height" if distances else "no_way"
+        ),
+        "motor_per_rider": value_or_reason(share.motor_per_rider, why),
     }

@@ -58,19 +58,19 @@ def binned(laid: Laid, values: Values, edges: Values) -> Bins:
     begun = stop > first
     before = np.maximum(first - 1, 0)
     if len(laid.at):
-        held = (
+        continues = (
             ~begun
             & (first > 0)
             & (laid.until[before] > edges[:-1] + 2.0 * ROUNDING * (edges[1] - edges[0]))
         )
         for column in answer:
-            column[held] = values[before[held]]
+            column[continues] = values[before[continues]]
     if begun.any():
         starts, rows = first[begun] - first[0], slice(first[0], stop[-1])
         inside, seconds = values[rows], laid.seconds[rows]
-        known = np.isfinite(inside)
-        weight = np.add.reduceat(np.where(known, seconds, 0.0), starts)
-        total = np.add.reduceat(np.where(known, inside * seconds, 0.0), starts)
+        present = np.isfinite(inside)
+        weight = np.add.reduceat(np.where(present, seconds, 0.0), starts)
+        total = np.add.reduceat(np.where(present, inside * seconds, 0.0), starts)
         answer[0][begun] = np.fmin.reduceat(inside, starts)
         answer[1][begun] = np.fmax.reduceat(inside, starts)
         mean = np.full(len(starts), np.nan)

@@ -56,10 +56,10 @@ class Walked:
 
 def same_way(a: Positions, b: Positions) -> SameWay | None:
     """None unless both have two positions that follow each other."""
-    known = np.concatenate([side.latitude_deg for side in (a, b)])
-    if not np.isfinite(known).any():
+    latitudes_deg = np.concatenate([side.latitude_deg for side in (a, b)])
+    if not np.isfinite(latitudes_deg).any():
         return None
-    middle_deg = float(np.nanmean(known))
+    middle_deg = float(np.nanmean(latitudes_deg))
     first_deg = next(
         (float(side.longitude_deg[np.isfinite(side.longitude_deg)][0]))
         for side in (a, b)
@@ -70,7 +70,7 @@ def same_way(a: Positions, b: Positions) -> SameWay | None:
         return None
     in_step = None
     if a.at_m is not None and b.at_m is not None:
-        in_step = at_the_same_way(one, other)
+        in_step = share_in_step(one, other)
     return SameWay(
         NEAR_M,
         share_near(one.points_m, other.points_m),
@@ -81,23 +81,23 @@ def same_way(a: Positions, b: Positions) -> SameWay | None:
 
 def walked(side: Positions, middle_deg: float, first_deg: float) -> Walked | None:
     """A track in steps of STEP_M; None where no two positions follow each other."""
-    there = np.flatnonzero(np.isfinite(side.latitude_deg) & np.isfinite(side.longitude_deg))
-    if len(there) < 2:
+    valid = np.flatnonzero(np.isfinite(side.latitude_deg) & np.isfinite(side.longitude_deg))
+    if len(valid) < 2:
         return None
-    around = np.mod(side.longitude_deg[there] - first_deg + 180.0, 360.0) - 180.0
+    around = np.mod(side.longitude_deg[valid] - first_deg + 180.0, 360.0) - 180.0
     narrow = np.cos(np.radians(middle_deg))
-    plane = np.radians(np.column_stack((around * narrow, side.latitude_deg[there] - middle_deg)))
+    plane = np.radians(np.column_stack((around * narrow, side.latitude_deg[valid] - middle_deg)))
     points = plane * EARTH_M
-    at_m = np.zeros(len(there)) if side.at_m is None else side.at_m[there]
-    follows = np.diff(side.start_s[there]) * 1e6 <= PAUSE_MIN_US
+    at_m = np.zeros(len(valid)) if side.at_m is None else side.at_m[valid]
+    follows = np.diff(side.start_s[valid]) * 1e6 <= PAUSE_MIN_US
     step = np.where(follows, np.hypot(*np.diff(points, axis=0).T), 0.0)
-    along = np.append(0.0, np.cumsum(step))
-    if along[-1] <= 0.0:
+    distance_m = np.append(0.0, np.cumsum(step))
+    if distance_m[-1] <= 0.0:
         return None
-    # Where the track is broken `along` stands: the later of both ends is the one that is found.
-    wanted = np.arange(0.0, along[-1], STEP_M)
-    begin = np.searchsorted(along, wanted, "right") - 1
-    share = ((wanted - along[begin]) / step[begin])[:, None]
+    # In a break `distance_m` is constant: the search finds the later of its two ends.
+    steps_m = np.arange(0.0, distance_m[-1], STEP_M)
+    begin = np.searchsorted(distance_m, steps_m, "right") - 1
+    share = ((steps_m - distance_m[begin]) / step[begin])[:, None]
     laid = points[begin] + share * (points[begin + 1] - points[begin])
     return Walked(laid, at_m[begin] + share[:, 0] * (at_m[begin + 1] - at_m[begin]))
 
@@ -132,7 +132,7 @@ def share_near(points_m: Values, others_m: Values) -> float:
     return float(near.mean())
 
 
-def at_the_same_way(one: Walked, other: Walked) -> float | None:
+def share_in_step(one: Walked, other: Walked) -> float | None:
     """Share of the way that both have on which they are near each other; None if there is none.
 
     Of points of the first only those with a point of the other within a step of way are asked.

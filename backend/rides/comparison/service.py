@@ -27,10 +27,10 @@ from backend.errors import FieldError, InvalidRequest
 from backend.rides.comparison.figures import Stretch, compared
 from backend.rides.comparison.grid import Bins, Laid, binned
 from backend.rides.comparison.same_way import Positions, same_way
-from backend.rides.comparison.settings_apart import Part, settings_apart
+from backend.rides.comparison.settings_difference import Part, settings_difference
 from backend.rides.insight.crank import CrankTorque
-from backend.rides.insight.service import ALTITUDE, ANGLE, CADENCE, POWERS, TORQUE, told_crank
-from backend.rides.rows import WAY, RideColumns, Window, columns_from
+from backend.rides.insight.service import ALTITUDE, ANGLE, CADENCE, POWERS, TORQUE, crank_of_ride
+from backend.rides.rows import DISTANCE_CHANNELS, RideColumns, Window, columns_from
 from backend.rides.settings_in_force import ConfigOf
 from backend.rides.traces.trace import PIXELS_MAX, row_window
 from backend.store import RideReader, Store
@@ -38,9 +38,9 @@ from backend.store import RideReader, Store
 By = Literal["time", "distance"]
 UNITS: dict[By, str] = {"time": "s", "distance": "m"}
 PLACES = ("latitude_deg", "longitude_deg")
-OF_FIGURES = (*POWERS, *WAY, ALTITUDE, *PLACES)
+OF_FIGURES = (*POWERS, *DISTANCE_CHANNELS, ALTITUDE, *PLACES)
 OF_CRANK = (ANGLE, TORQUE, CADENCE, MOTOR_TORQUE_CRANK.name)
-ONLY_ASKED = {
+DEMANDED_NAMES = {
     MOTOR_TORQUE: MOTOR_TORQUE_DEMANDED,
     MOTOR_TORQUE_CRANK.name: MOTOR_TORQUE_DEMANDED_CRANK.name,
 }
@@ -57,11 +57,11 @@ class Side:
         self.reader: RideReader = store.rides.reader(window.ride_id)
         self.ride: Ride = self.reader.ride
         try:
-            found = row_window(self.reader, window.from_s, window.to_s)
+            rows = row_window(self.reader, window.from_s, window.to_s)
         except InvalidRequest as error:
             fields = [replace(one, field=f"{name}_{one.field}") for one in error.fields]
             raise InvalidRequest(error.message, fields=fields) from None
-        self.start, self.stop, (self.from_s, self.to_s) = found
+        self.start, self.stop, (self.from_s, self.to_s) = rows
         if self.stop == self.start:
             message = f"Ride {window.ride_id} has no row in this window."
             field = FieldError(f"{name}_from_s", "empty_window", message)
@@ -79,7 +79,7 @@ class Side:
     @cached_property
     def channels(self) -> dict[str, ChannelSpec]:
         """What can be compared, by the name of what it is, with the ride's own channel."""
-        names = ONLY_ASKED if self.ride.motor_torque_meaning == DEMANDED else {}
+        names = DEMANDED_NAMES if self.ride.motor_torque_meaning == DEMANDED else {}
         return {names.get(one.name, one.name): one for one in self.ride.offered}
 
     def laid(self, by: By) -> Laid | None:
@@ -88,14 +88,14 @@ class Side:
         seconds = np.asarray(self.reader.row_seconds())[self.start : self.stop]
         if by == "time":
             return Laid(start_s - self.from_s, start_s - self.from_s + seconds, seconds)
-        way = self.columns(WAY).way
-        if way is None:
+        distances = self.columns(DISTANCE_CHANNELS).distances
+        if distances is None:
             return None
-        at_m = way.at_m - way.at_m[0]
-        return Laid(at_m, at_m + way.step_m, seconds)
+        at_m = distances.at_m - distances.at_m[0]
+        return Laid(at_m, at_m + distances.step_m, seconds)
 
-    def told(self) -> dict[str, Any]:
-        """The side as the API tells it."""
+    def as_json(self) -> dict[str, Any]:
+        """The side as in the API."""
         axes = {by: self.laid(by) for by in UNITS}
         return {
             "ride_id": self.ride.id,
@@ -116,7 +116,7 @@ class RideComparison:
         self._config_of = config_of
 
     def __call__(self, a: Window, b: Window) -> dict[str, Any]:
-        """Figures, settings, ways and what can be drawn, as the API tells them.
+        """Figures, settings, ways and what can be drawn, as in the API.
 
         Raises NotFound, ObjectDamaged, InvalidRequest for a window without rows.
         """
@@ -126,8 +126,8 @@ class RideComparison:
         figures = compared(*(stretch(side, of) for side, of in zip(sides, rows, strict=True)))
         meanings = [side.ride.motor_torque_meaning for side in sides]
         return {
-            "a": one.told(),
-            "b": other.told(),
+            "a": one.as_json(),
+            "b": other.as_json(),
             "figures": [asdict(figure) for figure in figures],
             "motor_torque": "apart" if len({*meanings, None}) == 3 else "alike",
             "channels": [
@@ -140,25 +140,25 @@ class RideComparison:
                 for name in {**one.channels, **other.channels}
             ],
             **ways(*rows),
-            "settings": settings_apart(self._config_of, one.part, other.part),
+            "settings": settings_difference(self._config_of, one.part, other.part),
         }
 
     def crank(self, a: Window, b: Window) -> dict[str, Any]:
         """Torque over the crank's angle of both, and B's less A's. Raises as the comparison."""
-        told = [told_crank(side.columns(OF_CRANK)) for side in self._sides(a, b)]
-        known = [one if isinstance(one, CrankTorque) else None for one in told]
-        one, other = known
-        apart: dict[str, Any] = {"rider_nm": None, "motor_nm": None}
+        results = [crank_of_ride(side.columns(OF_CRANK)) for side in self._sides(a, b)]
+        torques = [one if isinstance(one, CrankTorque) else None for one in results]
+        one, other = torques
+        difference: dict[str, Any] = {"rider_nm": None, "motor_nm": None}
         if one and other:
-            apart["rider_nm"] = bins_apart(one.rider_nm, other.rider_nm)
+            difference["rider_nm"] = bin_differences(one.rider_nm, other.rider_nm)
             if one.motor_nm and other.motor_nm:
-                apart["motor_nm"] = bins_apart(one.motor_nm, other.motor_nm)
+                difference["motor_nm"] = bin_differences(one.motor_nm, other.motor_nm)
         return {
             "a": asdict(one) if one else None,
             "b": asdict(other) if other else None,
-            "a_refused": told[0] if isinstance(told[0], str) else None,
-            "b_refused": told[1] if isinstance(told[1], str) else None,
-            "difference": apart,
+            "a_refused": results[0] if isinstance(results[0], str) else None,
+            "b_refused": results[1] if isinstance(results[1], str) else None,
+            "difference": difference,
         }
 
     def series(
@@ -170,14 +170,14 @@ class RideComparison:
         part: tuple[float, float | None] = (0.0, None),
         pixels: int = 1000,
     ) -> dict[str, Any]:
-        """Both rides in bins of one axis, as the API tells them.
+        """Both rides in bins of one axis, as in the API.
 
         channels: names as the comparison tells them, None for those that both have. part: of the
         axis, None for its end. Raises as the comparison, and InvalidRequest for a channel that
         neither has, and for an axis that one does not tell.
         """
         sides = self._sides(a, b)
-        laid = [told_laid(side, by) for side in sides]
+        laid = [require_laid(side, by) for side in sides]
         end = max(end_of(rows) or 0.0 for rows in laid)
         low, high = part[0], end if part[1] is None else part[1]
         if not 0.0 <= low < high or not 1 <= pixels <= PIXELS_MAX:
@@ -191,7 +191,7 @@ class RideComparison:
             "unit": UNITS[by],
             "end_x": end,
             "x": np.round(edges, 6).tolist(),
-            "channels": [told_channel(name, sides, bins) for name in names],
+            "channels": [channel_comparison(name, sides, bins) for name in names],
             "a_gaps": gaps_of(sides[0], laid[0]),
             "b_gaps": gaps_of(sides[1], laid[1]),
         }
@@ -205,7 +205,7 @@ def end_of(laid: Laid | None) -> float | None:
     return None if laid is None else float(laid.until.max())
 
 
-def told_laid(side: Side, by: By) -> Laid:
+def require_laid(side: Side, by: By) -> Laid:
     """Rows on an axis. Raises InvalidRequest (`no_axis`) where nothing tells it."""
     laid = side.laid(by)
     if laid is None:
@@ -226,14 +226,19 @@ def ways(a: RideColumns, b: RideColumns) -> dict[str, Any]:
     placed = [all(rows[name] is not None for name in PLACES) for rows in (a, b)]
     if not all(placed):
         return {"same_way": None, "no_way": "neither" if not any(placed) else "ab"[placed[0]]}
-    found = same_way(*(positions(rows) for rows in (a, b)))
-    return {"same_way": asdict(found) if found else None, "no_way": None if found else "too_few"}
+    comparison = same_way(*(positions(rows) for rows in (a, b)))
+    return {
+        "same_way": asdict(comparison) if comparison else None,
+        "no_way": None if comparison else "too_few",
+    }
 
 
 def positions(rows: RideColumns) -> Positions:
     """Where a window's rows were."""
     latitude, longitude = (rows.values[name] for name in PLACES)
-    return Positions(latitude, longitude, rows.start_s, rows.way.at_m if rows.way else None)
+    return Positions(
+        latitude, longitude, rows.start_s, rows.distances.at_m if rows.distances else None
+    )
 
 
 def chosen(sides: tuple[Side, Side], channels: Sequence[str] | None) -> list[str]:
@@ -258,25 +263,25 @@ def bins_of(side: Side, laid: Laid, names: Sequence[str], edges: Values) -> dict
     )
     holding = laid.of(part)
     # Between the samples of a log that filled a gap lie rows that hold for no time.
-    told = np.flatnonzero(holding.seconds > 0.0)
-    rows = Laid(holding.at[told], holding.until[told], holding.seconds[told])
-    return {name: binned(rows, values[spec.name][told], edges) for name, spec in own.items()}
+    with_time = np.flatnonzero(holding.seconds > 0.0)
+    rows = Laid(holding.at[with_time], holding.until[with_time], holding.seconds[with_time])
+    return {name: binned(rows, values[spec.name][with_time], edges) for name, spec in own.items()}
 
 
-def told_channel(
+def channel_comparison(
     name: str, sides: tuple[Side, Side], bins: Sequence[Mapping[str, Bins]]
 ) -> dict[str, Any]:
     """One channel of both, and the difference of their means where both have one."""
     spec = sides[0].channels.get(name) or sides[1].channels[name]
     digits = max(0, -int(np.floor(np.log10(spec.scale)))) + DIGITS_MORE
     one, other = (of.get(name) for of in bins)
-    apart = None if one is None or other is None else rounded(other.mean - one.mean, digits)
+    difference = None if one is None or other is None else rounded(other.mean - one.mean, digits)
     return {
         "name": name,
         "unit": spec.unit,
         "a": extremes(one, digits),
         "b": extremes(other, digits),
-        "difference": apart,
+        "difference": difference,
     }
 
 
@@ -293,7 +298,7 @@ def rounded(values: Values, digits: int) -> list[float | None]:
 
 
 def gaps_of(side: Side, laid: Laid) -> list[dict[str, float]]:
-    """Stretches of the axis without samples, as the API tells them."""
+    """Stretches of the axis without samples, as in the API."""
     start_s = side.reader.times_us(side.start, side.stop) / 1e6
     last = len(start_s) - 1
 
@@ -304,6 +309,6 @@ def gaps_of(side: Side, laid: Laid) -> list[dict[str, float]]:
     return [{"from_x": place(gap.from_s), "to_x": place(gap.to_s)} for gap in inside]
 
 
-def bins_apart(a: Sequence[float], b: Sequence[float]) -> list[float]:
+def bin_differences(a: Sequence[float], b: Sequence[float]) -> list[float]:
     """B less A, bin by bin."""
     return [other - one for one, other in zip(a, b, strict=True)]

@@ -41,7 +41,7 @@ class SinceChange:
         self._revisions_of = revisions_of
 
     def __call__(self, device_id: str, seq: int) -> dict[str, Any]:
-        """The comparison as the API tells it. Raises NotFound for an unknown revision."""
+        """The comparison as in the API. Raises NotFound for an unknown revision."""
         revisions = self._revisions_of(device_id)
         change = next((revision for revision in revisions if revision.seq == seq), None)
         if change is None:
@@ -117,15 +117,15 @@ def knows(ride: Ride, name: str) -> bool:
 def total(rides: Sequence[Ride], name: str) -> float | None:
     """Sum of a figure over the rides that have it; None if none has."""
     values = [getattr(ride.summary, name) for ride in rides]
-    there = [float(value) for value in values if value is not None]
-    return sum(there) if there else None
+    present = [float(value) for value in values if value is not None]
+    return sum(present) if present else None
 
 
 def by_km(rides: Sequence[Ride], name: str) -> float | None:
     """A figure for a kilometre, over the rides that have it."""
-    there = [ride for ride in rides if knows(ride, name)]
-    sum_wh = total(there, name)
-    return None if sum_wh is None else sum_wh / sum(distance_km(ride) for ride in there)
+    present = [ride for ride in rides if knows(ride, name)]
+    sum_wh = total(present, name)
+    return None if sum_wh is None else sum_wh / sum(distance_km(ride) for ride in present)
 
 
 def per_km(rides: Sequence[Ride]) -> list[float]:

@@ -76,7 +76,7 @@ class SensorDriftService:
         self._clock = clock
 
     def __call__(self, device_id: str, shown: int = RIDES_MAX) -> dict[str, Any]:
-        """The answer as the API tells it, with the newest rides of all. Raises NotFound,
+        """The answer as in the API, with the newest rides of all. Raises NotFound,
         NoAnswer."""
         key = self._key_of(device_id)
         revisions = self._revisions_of(device_id)
@@ -110,9 +110,9 @@ class SensorDriftService:
 def calibrations_of(revisions: Sequence[Revision]) -> list[Calibration]:
     """Every revision that changed how counts become torque, the oldest first. What was only tried
     is none."""
-    kept = [one for one in reversed(revisions) if one.state != TRIED]
-    found = []
-    for before, after in itertools.pairwise(kept):
+    confirmed = [one for one in reversed(revisions) if one.state != TRIED]
+    calibrations = []
+    for before, after in itertools.pairwise(confirmed):
         changed = [
             {"name": name, "old": before.parameters.get(name), "new": after.parameters.get(name)}
             for name in (*SCALE, *COMPENSATION)
@@ -120,8 +120,8 @@ def calibrations_of(revisions: Sequence[Revision]) -> list[Calibration]:
         ]
         if changed:
             recompensated = any(change["name"] in COMPENSATION for change in changed)
-            found.append(Calibration(after, changed, recompensated))
-    return found
+            calibrations.append(Calibration(after, changed, recompensated))
+    return calibrations
 
 
 def stretches_of(
@@ -180,8 +180,8 @@ def looked_at(
 def latest_of(since: Sequence[ZeroOfRide], left_out: dict[int, str]) -> ZeroOfRide | None:
     """The zero by which the sensor is judged: the newest. One that lies apart may be a foot, but
     two in a row are a sensor that jumped."""
-    is_apart = [left_out.get(ride.ride_id) == "apart" for ride in since[:2]]
-    return since[1] if is_apart == [True, False] else next(iter(since), None)
+    is_outlier = [left_out.get(ride.ride_id) == "apart" for ride in since[:2]]
+    return since[1] if is_outlier == [True, False] else next(iter(since), None)
 
 
 def ride_json(ride: ZeroOfRide, left_out: dict[int, str]) -> dict[str, Any]:
@@ -224,14 +224,14 @@ def trend_json(
     }
 
 
-def crossing_json(found: Crossing) -> dict[str, Any]:
+def crossing_json(crossing: Crossing) -> dict[str, Any]:
     """When a level is reached."""
-    days = (found.day, found.earliest_day, found.latest_day)
+    days = (crossing.day, crossing.earliest_day, crossing.latest_day)
     names = ("at", "earliest_at", "latest_at")
     moments = {
         name: None if day is None else moment(day) for name, day in zip(names, days, strict=True)
     }
-    return {"level_nm": found.level_nm, "state": found.state, **moments}
+    return {"level_nm": crossing.level_nm, "state": crossing.state, **moments}
 
 
 def bands_json(

@@ -39,10 +39,10 @@ METHOD = 1
 @dataclass(frozen=True)
 class Question:
     """needs: of each of these at least one channel. config: a limit that has to be known. lacks:
-    what is missing where `ask` has no answer although the channels are there."""
+    what is missing where `check` has no answer although the channels are there."""
 
     name: CheckName
-    ask: Callable[[Evidence], list[DiagnosisFinding] | None]
+    check: Callable[[Evidence], list[DiagnosisFinding] | None]
     needs: tuple[tuple[str, ...], ...] = ()
     config: str | None = None
     lacks: str = ""
@@ -92,7 +92,7 @@ def checked(question: Question, ride: Evidence) -> DiagnosisCheck:
         missing.append(question.config)
     if missing or not len(ride.start_s):
         return DiagnosisCheck(question.name, IMPOSSIBLE, missing=tuple(missing))
-    findings = question.ask(ride)
+    findings = question.check(ride)
     if findings is None:
         return DiagnosisCheck(question.name, IMPOSSIBLE, missing=(question.lacks,))
     return DiagnosisCheck(question.name, FOUND if findings else CLEAN, tuple(findings))
@@ -106,13 +106,13 @@ class Diagnosis:
         self._config_of = config_of
 
     def __call__(self, ride_id: int) -> dict[str, Any]:
-        """The answer as the API tells it. Raises NotFound, ObjectDamaged."""
+        """The answer as in the API. Raises NotFound, ObjectDamaged."""
         rows = columns_of(self._store, ride_id, NEEDED)
         config, _ = all_through(self._config_of, rows.ride)
         evidence = evidence_of(rows, limits_of(config))
         checks = [asdict(check) for check in diagnose(evidence)]
-        found = [finding for check in checks for finding in check["findings"]]
-        worst = max((SEVERITIES.index(one["severity"]) for one in found), default=None)
+        findings = [finding for check in checks for finding in check["findings"]]
+        worst = max((SEVERITIES.index(one["severity"]) for one in findings), default=None)
         return {
             "ride_id": ride_id,
             "method": METHOD,
@@ -145,7 +145,7 @@ def limits_of(config: Mapping[str, Any]) -> Limits:
 
 def paused(ride: Ride) -> list[tuple[float, float]]:
     """Where the device says that its timer stood."""
-    return [(pause.from_s, pause.to_s) for pause in ride.noted.pauses]
+    return [(pause.from_s, pause.to_s) for pause in ride.metadata.pauses]
 
 
 UNREADABLE = RideZero(reason="unreadable")
@@ -160,7 +160,7 @@ class RideZeros(DueRides):
     def make(self, ride: Ride) -> None:
         """A ride's zero, or why it tells none."""
         zero = made_or(UNREADABLE, "zero", ride, lambda: self._zero(ride))
-        self._store.zeros.keep(ride, zero)
+        self._store.zeros.save(ride, zero)
 
     def _zero(self, ride: Ride) -> RideZero:
         # Most files of head units: their rows need not be read.

@@ -9,7 +9,7 @@ from backend.core.energy import KMH_PER_MS, rate_hz
 from backend.core.sphere import EARTH_M
 from backend.core.statistics import MEDIAN_TO_MEAN, robust_deviation
 from backend.rides.diagnosis.finding import WARNING, DiagnosisFinding, Evidence
-from backend.rides.insight.distance import way_of
+from backend.rides.insight.distance import row_distances
 
 SPEED, CADENCE, TORQUE, ODOMETER = "speed_kmh", "cadence_rpm", "rider_torque_nm", "distance_m"
 LATITUDE, LONGITUDE = "latitude_deg", "longitude_deg"
@@ -31,7 +31,7 @@ by its outer diameter, some 2 % less under load)."""
 def implausible_speed(ride: Evidence) -> list[DiagnosisFinding]:
     """Changes that no tyre can make, and a standing wheel under turning cranks."""
     speed = ride.values[SPEED]
-    found = []
+    findings = []
     jumps, greatest = speed_jumps(ride, speed)
     if jumps:
         numbers = {
@@ -39,7 +39,7 @@ def implausible_speed(ride: Evidence) -> list[DiagnosisFinding]:
             "acceleration_ms2": greatest,
             "threshold_ms2": JUMP_MS2,
         }
-        found.append(DiagnosisFinding("speed_jump", WARNING, *jumps[0], numbers, SPEED))
+        findings.append(DiagnosisFinding("speed_jump", WARNING, *jumps[0], numbers, SPEED))
     if ride.has(CADENCE, TORQUE):
         driven = (ride.values[CADENCE] > SILENT_RPM) & (ride.values[TORQUE] > SILENT_NM)
         still = driven_without_speed(ride, speed, driven)
@@ -50,14 +50,14 @@ def implausible_speed(ride: Evidence) -> list[DiagnosisFinding]:
                 "seconds": sum(stop - start for start, stop in still),
                 "threshold_s": SILENT_S,
             }
-            found.append(DiagnosisFinding("speed_silent", WARNING, begin, end, numbers, SPEED))
-    return found
+            findings.append(DiagnosisFinding("speed_silent", WARNING, begin, end, numbers, SPEED))
+    return findings
 
 
 def speed_jumps(ride: Evidence, speed_kmh: Values) -> tuple[list[tuple[float, float]], float]:
     """Where the speed (n,) changed faster than JUMP_MS2, and the greatest change."""
-    known = np.flatnonzero(np.isfinite(speed_kmh))
-    at_s, ms = ride.start_s[known], speed_kmh[known] / KMH_PER_MS
+    valid = np.flatnonzero(np.isfinite(speed_kmh))
+    at_s, ms = ride.start_s[valid], speed_kmh[valid] / KMH_PER_MS
     later = np.searchsorted(at_s, at_s + JUMP_S - 1e-6)
     inside = later < len(at_s)
     first, later = np.flatnonzero(inside), later[inside]
@@ -94,23 +94,23 @@ def wheel(ride: Evidence) -> list[DiagnosisFinding] | None:
     A stretch takes CHORD_S and is straight where its halves are no longer than the whole. The
     spread of the stretches gives the error of their median. None with too few of them.
     """
-    way = way_of(ride.values, ride.start_s, ride.seconds)
-    if way is None:
+    distances = row_distances(ride.values, ride.start_s, ride.seconds)
+    if distances is None:
         return None
-    there = np.isfinite(ride.values[LATITUDE]) & np.isfinite(ride.values[LONGITUDE])
-    known = np.flatnonzero(there)
-    picked = known[chord_ends(ride.start_s[known])]
-    at_s, way_m = ride.start_s[picked], way.at_m[picked]
+    has_position = np.isfinite(ride.values[LATITUDE]) & np.isfinite(ride.values[LONGITUDE])
+    positioned = np.flatnonzero(has_position)
+    picked = positioned[chord_ends(ride.start_s[positioned])]
+    at_s, rolled_to_m = ride.start_s[picked], distances.at_m[picked]
     x_m, y_m = plane(ride.values[LATITUDE][picked], ride.values[LONGITUDE][picked])
     half_m = np.hypot(np.diff(x_m), np.diff(y_m))
-    whole_m = np.hypot(x_m[2:] - x_m[:-2], y_m[2:] - y_m[:-2])
-    rolled_m, took_s = way_m[2:] - way_m[:-2], at_s[2:] - at_s[:-2]
+    straight_m = np.hypot(x_m[2:] - x_m[:-2], y_m[2:] - y_m[:-2])
+    rolled_m, duration_s = rolled_to_m[2:] - rolled_to_m[:-2], at_s[2:] - at_s[:-2]
     halves_m = half_m[:-1] + half_m[1:]
-    good = (took_s <= 2.0 * CHORD_S) & (
-        rolled_m / np.maximum(took_s, 1e-9) > CHORD_KMH / KMH_PER_MS
+    good = (duration_s <= 2.0 * CHORD_S) & (
+        rolled_m / np.maximum(duration_s, 1e-9) > CHORD_KMH / KMH_PER_MS
     )
-    good &= halves_m <= whole_m * (1.0 + STRAIGHT)
-    share = whole_m[good] / rolled_m[good]
+    good &= halves_m <= straight_m * (1.0 + STRAIGHT)
+    share = straight_m[good] / rolled_m[good]
     if len(share) < WHEEL_CHORDS or rolled_m[good].sum() < WHEEL_M:
         return None
     median = float(np.median(share))

@@ -87,8 +87,8 @@ def too_hot(ride: Evidence) -> Mask:
     """Rows (n,) in which heat holds the motor back."""
     if ride.has(FLAGS):
         flags = np.nan_to_num(ride.values[FLAGS]).astype(np.int64)
-        told: Mask = (flags & ride.limits.temperature) != 0
-        return told
+        limited: Mask = (flags & ride.limits.temperature) != 0
+        return limited
     hot = np.zeros(len(ride.start_s), np.bool_)
     for name, threshold in HOT_DEGC.items():
         if name in ride.values:
@@ -110,22 +110,22 @@ WARNING_SHARE, SERIOUS_SHARE = 0.01, 0.10
 
 def drop_outs(ride: Evidence) -> list[DiagnosisFinding]:
     """Rows lost while the bike moved, and each sensor that fell silent and came back."""
-    whole_s = float(ride.end_s[-1] - ride.start_s[0])
-    found = []
+    total_s = float(ride.end_s[-1] - ride.start_s[0])
+    findings = []
     lost = [gap for gap in ride.gaps if gap[1] - gap[0] >= LOST_S and rolled(ride, gap)]
     if lost:
-        found.append(finding("rows_lost", lost, whole_s, None))
+        findings.append(finding("rows_lost", lost, total_s, None))
     for name in SENSORS:
         if name in ride.derived or not ride.has(name):
             continue
         holes = sensor_holes(ride, name)
         if holes:
-            found.append(finding("sensor_silent", holes, whole_s, name))
+            findings.append(finding("sensor_silent", holes, total_s, name))
     if ride.has(AGE):
         old = [ride.time(rows) for rows in ride.spans(ride.values[AGE] > AGE_MS)]
         if old:
-            found.append(finding("torque_late", old, whole_s, AGE))
-    return found
+            findings.append(finding("torque_late", old, total_s, AGE))
+    return findings
 
 
 def rolled(ride: Evidence, gap: Span) -> bool:
@@ -141,20 +141,20 @@ def rolled(ride: Evidence, gap: Span) -> bool:
     speed = ride.values.get(SPEED)
     if speed is None:
         return True
-    known = speed[max(before - 1, 0) : before + 1]
-    return bool(np.nanmax(np.append(known, 0.0)) > MOVING_KMH)
+    speeds = speed[max(before - 1, 0) : before + 1]
+    return bool(np.nanmax(np.append(speeds, 0.0)) > MOVING_KMH)
 
 
 def sensor_holes(ride: Evidence, name: str) -> list[Span]:
     """Where a channel is missing between its first sample and its last, while others are there."""
-    there = np.isfinite(ride.values[name])
-    known = np.flatnonzero(there)
-    others = np.zeros(len(there), np.bool_)
+    present = np.isfinite(ride.values[name])
+    valid = np.flatnonzero(present)
+    others = np.zeros(len(present), np.bool_)
     for other in SENSORS:
         if other != name and other in ride.values:
             others |= np.isfinite(ride.values[other])
-    hole = ~there & others
-    hole[: known[0]] = hole[known[-1] :] = False
+    hole = ~present & others
+    hole[: valid[0]] = hole[valid[-1] :] = False
     return [
         ride.time(rows)
         for rows in ride.spans(hole)
@@ -163,12 +163,12 @@ def sensor_holes(ride: Evidence, name: str) -> list[Span]:
 
 
 def finding(
-    kind: FindingKind, spans: list[Span], whole_s: float, channel: str | None
+    kind: FindingKind, spans: list[Span], total_s: float, channel: str | None
 ) -> DiagnosisFinding:
     """All of one kind as one finding; it shows the longest."""
     seconds = sum(end - begin for begin, end in spans)
     begin, end = max(spans, key=lambda span: span[1] - span[0])
-    share = seconds / max(whole_s, 1e-9)
+    share = seconds / max(total_s, 1e-9)
     severity: Severity = WARNING if share >= WARNING_SHARE else NOTE
     numbers = {
         "times": float(len(spans)),

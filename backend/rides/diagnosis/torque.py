@@ -33,7 +33,7 @@ FLAT_ROWS, FLAT_STROKES, FLAT_NM = 5, 3, 30.0
 
 
 @dataclass(frozen=True)
-class Piece:
+class Segment:
     """STILL_S without anybody pushing: when it begins, its torque, and by how much that moved."""
 
     begin_s: float
@@ -53,10 +53,10 @@ def zero_drift(ride: Evidence) -> list[DiagnosisFinding] | None:
     """The zero at rest, from pieces of STILL_S without a foot on the pedals; None without any."""
     resting = np.abs(ride.values[SPEED]) < RESTING_KMH
     resting &= np.abs(ride.values[CADENCE]) < REST_RPM
-    free = [piece for piece in unloaded_pieces(ride, resting) if piece.tells_zero]
+    free = [segment for segment in unloaded_segments(ride, resting) if segment.tells_zero]
     if not free:
         return None
-    at_s, zeros = [piece.begin_s for piece in free], [piece.torque_nm for piece in free]
+    at_s, zeros = [segment.begin_s for segment in free], [segment.torque_nm for segment in free]
     zero = np.array(zeros)
     third = max(len(zero) // 3, 1)
     typical = float(np.median(zero))
@@ -79,29 +79,29 @@ def zero_drift(ride: Evidence) -> list[DiagnosisFinding] | None:
     return [DiagnosisFinding("zero_drift", severity, at_s[worst], at_s[worst] + STILL_S, numbers)]
 
 
-def unloaded_pieces(ride: Evidence, unloaded: Mask) -> list[Piece]:
+def unloaded_segments(ride: Evidence, unloaded: Mask) -> list[Segment]:
     """Pieces of STILL_S in which nobody should push (n,), also those in which somebody does."""
     torque = ride.values[TORQUE]
     return [
-        Piece(begin_s, float(np.median(means)), float(np.ptp(means)))
+        Segment(begin_s, float(np.median(means)), float(np.ptp(means)))
         for rows in ride.spans(unloaded & np.isfinite(torque))
-        for begin_s, means in whole_pieces(ride.start_s[rows], torque[rows])
+        for begin_s, means in full_segments(ride.start_s[rows], torque[rows])
     ]
 
 
-def whole_pieces(start_s: Values, torque_nm: Values) -> list[tuple[float, Values]]:
+def full_segments(start_s: Values, torque_nm: Values) -> list[tuple[float, Values]]:
     """Whole pieces of STILL_S of a rest (n,): when each begins, and its means of a second."""
     second = np.floor(start_s - start_s[0] + 1e-9).astype(np.intp)
     # The last second may not be whole, and the first still has the rider's foot leaving.
     count = int(second[-1])
     sums = np.bincount(second, torque_nm)
     rows = np.bincount(second)
-    pieces = []
+    segments = []
     for begin in range(1, count - STILL_S + 1, STILL_S):
         within = slice(begin, begin + STILL_S)
         if np.all(rows[within] > 0):
-            pieces.append((float(start_s[0]) + begin, sums[within] / rows[within]))
-    return pieces
+            segments.append((float(start_s[0]) + begin, sums[within] / rows[within]))
+    return segments
 
 
 def saturation(ride: Evidence) -> list[DiagnosisFinding] | None:

@@ -25,8 +25,8 @@ from backend.rides.diagnosis.torque import (
     STILL_S,
     TORQUE,
     ZERO_NM,
-    Piece,
-    unloaded_pieces,
+    Segment,
+    unloaded_segments,
 )
 
 TEMPERATURE = "sensor_temperature_degc"
@@ -34,7 +34,7 @@ ZERO_CHANNELS = (TORQUE, CADENCE, SPEED, RAW, TEMPERATURE)
 # A median of more than this scatter cannot tell whether it is beyond the level that is watched.
 SCATTER_NM_MAX = 0.5 * ZERO_NM
 # With fewer pieces their own scatter says little: then as if each were anywhere in STILL_NM.
-PIECES_FEW = 5
+SEGMENTS_FEW = 5
 # Of the scale, thesis_checks I-21.
 RESOLUTION_NM = 0.01
 
@@ -46,11 +46,11 @@ def zero_of(ride: Evidence) -> RideZero:
             return RideZero(reason=reason)
     coasting = ride.values[SPEED] > MOVING_KMH
     coasting &= np.abs(ride.values[CADENCE]) < REST_RPM
-    pieces = unloaded_pieces(ride, coasting)
-    free = [piece for piece in pieces if piece.tells_zero]
+    segments = unloaded_segments(ride, coasting)
+    free = [segment for segment in segments if segment.tells_zero]
     if not free:
-        return RideZero(reason=why_none(pieces))
-    zeros = np.array([piece.torque_nm for piece in free])
+        return RideZero(reason=why_none(segments))
+    zeros = np.array([segment.torque_nm for segment in free])
     scatter_nm = robust_deviation(zeros)
     if scatter_nm > SCATTER_NM_MAX:
         return RideZero(pieces=len(free), reason="disagree")
@@ -63,31 +63,31 @@ def zero_of(ride: Evidence) -> RideZero:
     )
 
 
-def why_none(pieces: list[Piece]) -> str:
+def why_none(segments: list[Segment]) -> str:
     """Why no piece tells the zero."""
-    if not pieces:
+    if not segments:
         return "no_coasting"
-    return "foot" if any(piece.is_still for piece in pieces) else "not_still"
+    return "foot" if any(segment.is_still for segment in segments) else "not_still"
 
 
-def uncertainty_nm(scatter_nm: float, pieces: int) -> float:
+def uncertainty_nm(scatter_nm: float, segments: int) -> float:
     """Standard uncertainty of a median: GUM 4.2.3, 4.3.7 for few pieces and for the resolution."""
-    if pieces < PIECES_FEW:
+    if segments < SEGMENTS_FEW:
         scatter_nm = max(scatter_nm, STILL_NM / math.sqrt(12.0))
-    of_median = MEDIAN_TO_MEAN * scatter_nm / math.sqrt(pieces)
+    of_median = MEDIAN_TO_MEAN * scatter_nm / math.sqrt(segments)
     return math.hypot(of_median, RESOLUTION_NM / math.sqrt(12.0))
 
 
-def meanwhile(ride: Evidence, channel: str, pieces: list[Piece]) -> float | None:
+def meanwhile(ride: Evidence, channel: str, segments: list[Segment]) -> float | None:
     """The median of another channel's means over the same pieces; None where it has none."""
     values: Values | None = ride.values.get(channel)
     if values is None:
         return None
     means = []
-    for piece in pieces:
-        ends = np.searchsorted(ride.start_s, (piece.begin_s, piece.begin_s + STILL_S))
-        there = values[slice(*ends)]
-        there = there[np.isfinite(there)]
-        if len(there):
-            means.append(float(np.mean(there)))
+    for segment in segments:
+        ends = np.searchsorted(ride.start_s, (segment.begin_s, segment.begin_s + STILL_S))
+        samples = values[slice(*ends)]
+        samples = samples[np.isfinite(samples)]
+        if len(samples):
+            means.append(float(np.mean(samples)))
     return float(np.median(means)) if means else None

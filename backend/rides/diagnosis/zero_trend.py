@@ -32,7 +32,7 @@ RANGE_K_MIN = 5.0
 """The thermometer tells whole kelvins: over less, its steps look like a coefficient."""
 # Nobody knows what becomes of a bike in more than five years.
 HORIZON_DAYS = 1826
-APART_SIGMAS = 5.0
+OUTLIER_SIGMAS = 5.0
 # So that rides that agree to the resolution do not call each other apart.
 SIGMA_NM_MIN = 0.02
 ABSOLUTE_ROUNDS = 30
@@ -125,10 +125,10 @@ def trend_of(zeros: Zeros, stretch_now: int) -> Trend | str:
         if why:
             return why
         design = design_of(chosen, warm)
-        apart = lies_apart(design, chosen)
-        if not apart.any():
+        outliers = is_outlier(design, chosen)
+        if not outliers.any():
             break
-        used[np.flatnonzero(used)[apart]] = False
+        used[np.flatnonzero(used)[outliers]] = False
     chosen = zeros.only(used)
     why = what_lacks(chosen, stretch_now, warm)
     return why or fitted(chosen, warm, no_per_k, used)
@@ -136,11 +136,13 @@ def trend_of(zeros: Zeros, stretch_now: int) -> Trend | str:
 
 def temperature_counts(zeros: Zeros) -> tuple[bool, str | None]:
     """Whether temperature can be told apart from age, else why not."""
-    known = zeros.only(zeros.has_temperature)
-    if len(known.days) < 0.5 * len(zeros.days) or not len(known.days):
+    with_temperature = zeros.only(zeros.has_temperature)
+    if len(with_temperature.days) < 0.5 * len(zeros.days) or not len(with_temperature.days):
         return False, "no_thermometer"
     return (
-        (True, None) if np.ptp(known.temperature_degc) >= RANGE_K_MIN else (False, "same_weather")
+        (True, None)
+        if np.ptp(with_temperature.temperature_degc) >= RANGE_K_MIN
+        else (False, "same_weather")
     )
 
 
@@ -164,7 +166,7 @@ def design_of(zeros: Zeros, warm: bool) -> Values:
     return np.hstack(columns)
 
 
-def lies_apart(design: Values, zeros: Zeros) -> Mask:
+def is_outlier(design: Values, zeros: Zeros) -> Mask:
     """Rides (n,) far from where least absolute deviations put them, which a few do not move.
 
     The scale leaves out as many of the smallest deviations as there are coefficients: those are
@@ -174,11 +176,11 @@ def lies_apart(design: Values, zeros: Zeros) -> Mask:
     away = np.zeros(len(zeros.days))
     for _ in range(ABSOLUTE_ROUNDS):
         root = np.sqrt(weight)
-        found = np.linalg.lstsq(design * root[:, None], zeros.zero_nm * root, rcond=None)[0]
-        away = np.abs(zeros.zero_nm - design @ found)
+        coefficients = np.linalg.lstsq(design * root[:, None], zeros.zero_nm * root, rcond=None)[0]
+        away = np.abs(zeros.zero_nm - design @ coefficients)
         weight = 1.0 / np.maximum(away, 0.1 * SIGMA_NM_MIN)
     sigma_nm = MAD_TO_DEVIATION * float(np.median(np.sort(away)[design.shape[1] :]))
-    return away > APART_SIGMAS * np.maximum(zeros.uncertainty_nm, max(sigma_nm, SIGMA_NM_MIN))
+    return away > OUTLIER_SIGMAS * np.maximum(zeros.uncertainty_nm, max(sigma_nm, SIGMA_NM_MIN))
 
 
 def fitted(zeros: Zeros, warm: bool, no_per_k: str | None, used: Mask) -> Trend:

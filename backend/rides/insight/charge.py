@@ -48,16 +48,16 @@ def charge_of(
     battery_w: battery power. step_m: way of each row. Refusals: `no_distance`, `short_way`,
     `charged` (the charge rose), `little_used`.
     """
-    there = np.flatnonzero(np.isfinite(soc_pct))
-    if not len(there):
+    valid = np.flatnonzero(np.isfinite(soc_pct))
+    if not len(valid):
         return None
-    known = soc_pct[there]
-    changes = np.abs(np.diff(known))
+    charges = soc_pct[valid]
+    changes = np.abs(np.diff(charges))
     changes = changes[changes > 1e-9]
     step = float(changes.min()) if len(changes) else 0.0
-    passed_s = np.cumsum(seconds[there])
-    first = float(np.median(known[passed_s <= max(ENDS_S, passed_s[0])]))
-    last = float(np.median(known[passed_s >= passed_s[-1] - ENDS_S]))
+    passed_s = np.cumsum(seconds[valid])
+    first = float(np.median(charges[passed_s <= max(ENDS_S, passed_s[0])]))
+    last = float(np.median(charges[passed_s >= passed_s[-1] - ENDS_S]))
     used = first - last
     refused = refusal(used, step, None if step_m is None else float(step_m.sum()) / 1000.0)
     if refused or step_m is None:
@@ -91,16 +91,16 @@ def refusal(used_pct: float, step_pct: float, km: float | None) -> str | None:
 def thirds(
     soc_pct: Values, battery_w: Values | None, seconds: Values, step_m: Values, used_pct: float
 ) -> list[float]:
-    """What each third of the way took, over the mean: by battery power, else by the charge."""
+    """What each third of the distance took, over the mean: by battery power, else by the charge."""
     part = np.minimum(np.cumsum(step_m) / step_m.sum() * PARTS, PARTS - 1e-9).astype(np.intp)
     if battery_w is not None and np.isfinite(battery_w).any():
         work = np.where(np.isfinite(battery_w), battery_w, 0.0) * seconds / SECONDS_PER_HOUR
-        took = np.bincount(part, work, minlength=PARTS)
-        if took.sum() > 0.0:
-            return [float(wh) * PARTS / float(took.sum()) for wh in took]
-    there = np.flatnonzero(np.isfinite(soc_pct))
-    ends = [soc_pct[there[0]]]
+        work_wh = np.bincount(part, work, minlength=PARTS)
+        if work_wh.sum() > 0.0:
+            return [float(wh) * PARTS / float(work_wh.sum()) for wh in work_wh]
+    valid = np.flatnonzero(np.isfinite(soc_pct))
+    ends = [soc_pct[valid[0]]]
     for index in range(PARTS):
-        within = there[part[there] <= index]
+        within = valid[part[valid] <= index]
         ends.append(soc_pct[within[-1]] if len(within) else ends[-1])
     return [float(fall) * PARTS / used_pct for fall in -np.diff(ends)]

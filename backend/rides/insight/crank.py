@@ -65,19 +65,19 @@ def crank_torque(
     turning = np.isfinite(angle_deg) & np.isfinite(rider_nm) & (cadence_rpm >= CADENCE_RPM_MIN)
     if motor_nm is not None:
         turning &= np.isfinite(motor_nm)
-    held_s = seconds[turning]
-    turns = float((cadence_rpm[turning] * held_s).sum()) / 60.0
+    turning_s = seconds[turning]
+    turns = float((cadence_rpm[turning] * turning_s).sum()) / 60.0
     places = (np.mod(angle_deg[turning], 360.0) // ANGLE_DEG).astype(np.intp) % BINS
-    spent_s = np.bincount(places, held_s, minlength=BINS)
+    spent_s = np.bincount(places, turning_s, minlength=BINS)
     if turns < TURNS_MIN or not spent_s.all():
         return "few_turns"
-    rider = np.bincount(places, rider_nm[turning] * held_s, minlength=BINS) / spent_s
+    rider = np.bincount(places, rider_nm[turning] * turning_s, minlength=BINS) / spent_s
     motor = None
     if motor_nm is not None:
-        motor = np.bincount(places, motor_nm[turning] * held_s, minlength=BINS) / spent_s
+        motor = np.bincount(places, motor_nm[turning] * turning_s, minlength=BINS) / spent_s
     mean_nm = float(rider.mean())
     weakest = int(np.argmin(rider))
-    cadence = turns * 60.0 / float(held_s.sum())
+    cadence = turns * 60.0 / float(turning_s.sum())
     lag_deg = None if motor is None else lag(rider, motor)
     return CrankTorque(
         turns=turns,
@@ -117,12 +117,12 @@ class GainMap:
 
 def gain_map(speed_kmh: Values, gain: Values, seconds: Values) -> GainMap | None:
     """Of rows (n,), missing as NaN, in which a table gave a gain; None without any."""
-    there = np.isfinite(speed_kmh) & np.isfinite(gain) & (gain > 0.0) & (speed_kmh >= 0.0)
-    if not there.any():
+    valid = np.isfinite(speed_kmh) & np.isfinite(gain) & (gain > 0.0) & (speed_kmh >= 0.0)
+    if not valid.any():
         return None
-    row = np.minimum((speed_kmh[there] // SPEED_STEP_KMH).astype(np.intp), SPEEDS_MAX - 1)
-    column = np.minimum((gain[there] // GAIN_STEP).astype(np.intp), GAINS_MAX - 1)
+    row = np.minimum((speed_kmh[valid] // SPEED_STEP_KMH).astype(np.intp), SPEEDS_MAX - 1)
+    column = np.minimum((gain[valid] // GAIN_STEP).astype(np.intp), GAINS_MAX - 1)
     rows, columns = int(row.max()) + 1, int(column.max()) + 1
-    cells = np.bincount(row * columns + column, seconds[there], minlength=rows * columns)
-    told = tuple(tuple(line) for line in cells.reshape(rows, columns).tolist())
-    return GainMap(SPEED_STEP_KMH, GAIN_STEP, told)
+    cells = np.bincount(row * columns + column, seconds[valid], minlength=rows * columns)
+    gains = tuple(tuple(line) for line in cells.reshape(rows, columns).tolist())
+    return GainMap(SPEED_STEP_KMH, GAIN_STEP, gains)

@@ -36,7 +36,7 @@ Mask = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
-class Way:
+class RowDistances:
     """Of rows (n,): metres since the start at each, and metres ridden while each held.
 
     lost_m: way that only the odometer knows, in gaps; it is in no row.
@@ -69,7 +69,9 @@ class Climb:
     """Of the averaged heights."""
 
 
-def way_of(columns: Mapping[str, Values], start_s: Values, seconds: Values) -> Way | None:
+def row_distances(
+    columns: Mapping[str, Values], start_s: Values, seconds: Values
+) -> RowDistances | None:
     """The way of rows (n,); None without speed and odometer.
 
     columns: `distance_m` or `speed_kmh`, missing as NaN. start_s, seconds: when each row begins
@@ -77,40 +79,42 @@ def way_of(columns: Mapping[str, Values], start_s: Values, seconds: Values) -> W
     """
     odometer = columns.get("distance_m")
     if odometer is not None and np.isfinite(odometer).any():
-        known = np.flatnonzero(np.isfinite(odometer))
-        last = known[np.maximum(np.searchsorted(known, np.arange(len(odometer)), "right") - 1, 0)]
+        valid = np.flatnonzero(np.isfinite(odometer))
+        last = valid[np.maximum(np.searchsorted(valid, np.arange(len(odometer)), "right") - 1, 0)]
         at_m = np.maximum.accumulate(odometer[last])
         step_m = np.diff(at_m, append=at_m[-1:])
         gap = np.diff(start_s, append=start_s[-1:]) > seconds + 1e-6
         lost_m = float(step_m[gap].sum())
-        return Way(at_m - at_m[0], np.where(gap, 0.0, step_m), lost_m)
+        return RowDistances(at_m - at_m[0], np.where(gap, 0.0, step_m), lost_m)
     speed = columns.get("speed_kmh")
     if speed is None or not np.isfinite(speed).any():
         return None
     step_m = np.where(np.isfinite(speed), speed, 0.0) / KMH_PER_MS * seconds
-    return Way(np.cumsum(step_m) - step_m, step_m, 0.0)
+    return RowDistances(np.cumsum(step_m) - step_m, step_m, 0.0)
 
 
-def runs_of_heights(altitude_m: Values, way: Way, start_s: Values) -> Iterator[Heights]:
+def runs_of_heights(
+    altitude_m: Values, distances: RowDistances, start_s: Values
+) -> Iterator[Heights]:
     """Heights without a gap in them, from altitudes (n,), missing as NaN."""
-    there = np.flatnonzero(np.isfinite(altitude_m))
-    if not len(there):
+    valid = np.flatnonzero(np.isfinite(altitude_m))
+    if not len(valid):
         return
-    broken = (np.diff(start_s[there]) > GAP_S) | (np.diff(way.at_m[there]) > GAP_M)
-    for rows in np.split(there, np.flatnonzero(broken) + 1):
-        start_m = float(way.at_m[rows[0]])
-        cells = ((way.at_m[rows] - start_m) // CELL_M).astype(np.intp)
+    broken = (np.diff(start_s[valid]) > GAP_S) | (np.diff(distances.at_m[valid]) > GAP_M)
+    for rows in np.split(valid, np.flatnonzero(broken) + 1):
+        start_m = float(distances.at_m[rows[0]])
+        cells = ((distances.at_m[rows] - start_m) // CELL_M).astype(np.intp)
         count = np.bincount(cells)
         total = np.bincount(cells, altitude_m[rows])
-        known = np.flatnonzero(count)
-        means = np.interp(np.arange(len(count)), known, total[known] / count[known])
+        filled = np.flatnonzero(count)
+        means = np.interp(np.arange(len(count)), filled, total[filled] / count[filled])
         yield Heights(start_m, means, rows, cells)
 
 
-def gradient_pct(altitude_m: Values, way: Way, start_s: Values) -> Values:
+def gradient_pct(altitude_m: Values, distances: RowDistances, start_s: Values) -> Values:
     """The gradient at each row (n,) in percent, NaN where it cannot be told."""
     gradient: Values = np.full(len(altitude_m), np.nan)
-    for run in runs_of_heights(altitude_m, way, start_s):
+    for run in runs_of_heights(altitude_m, distances, start_s):
         gradient[run.rows] = slope_pct(run.height_m)[run.cell_of_row]
     return gradient
 
@@ -139,9 +143,9 @@ def slope_pct(height_m: Values) -> Values:
     return slope * 100.0
 
 
-def climb_of(altitude_m: Values, way: Way, start_s: Values) -> Climb | None:
+def climb_of(altitude_m: Values, distances: RowDistances, start_s: Values) -> Climb | None:
     """Ascent and descent of altitudes (n,); None where there is no height."""
-    runs = [run.height_m for run in runs_of_heights(altitude_m, way, start_s)]
+    runs = [run.height_m for run in runs_of_heights(altitude_m, distances, start_s)]
     if not runs:
         return None
     heights = np.concatenate(runs)

@@ -75,15 +75,15 @@ def by_seconds(columns: Mapping[str, Values], start_s: Values, seconds: Values) 
     starts = np.flatnonzero(np.diff(second, prepend=second[:1] - 1))
     if not len(starts):
         return Seconds({}, np.zeros(0))
-    found = {}
+    means_by_name = {}
     for name, values in columns.items():
-        there = np.isfinite(values)
-        weight = np.add.reduceat(np.where(there, seconds, 0.0), starts)
-        sums = np.add.reduceat(np.where(there, values, 0.0) * seconds, starts)
+        valid = np.isfinite(values)
+        weight = np.add.reduceat(np.where(valid, seconds, 0.0), starts)
+        sums = np.add.reduceat(np.where(valid, values, 0.0) * seconds, starts)
         means: Values = np.full(len(starts), np.nan)
         np.divide(sums, weight, out=means, where=weight > 0.0)
-        found[name] = means
-    return Seconds(found, np.add.reduceat(np.asarray(seconds), starts))
+        means_by_name[name] = means
+    return Seconds(means_by_name, np.add.reduceat(np.asarray(seconds), starts))
 
 
 def power_time(ride: Seconds, threshold_w: float | None) -> Distribution | None:
@@ -145,26 +145,26 @@ def zone_edges(shares: Sequence[float], reference: float | None) -> list[float]:
 
 def steps(values: Values, step: float) -> list[float]:
     """Edges of bands of `step` between the least and the greatest of values (n,)."""
-    there = values[np.isfinite(values)]
-    if not len(there):
+    valid = values[np.isfinite(values)]
+    if not len(valid):
         return []
-    first, last = (int(value // step) for value in (there.min(), there.max()))
+    first, last = (int(value // step) for value in (valid.min(), valid.max()))
     return [step * index for index in range(first + 1, min(last, first + BANDS_MAX - 1) + 1)]
 
 
 def distribution(
     channel: str,
     values: Values,
-    held_s: Values,
+    seconds: Values,
     counted: npt.NDArray[np.bool_],
     edges: Sequence[float],
     reference: float | None,
 ) -> Distribution | None:
     """Time of values (n,) between edges, over what is counted; None where there is no value."""
-    there = counted & np.isfinite(values)
-    if not there.any():
+    valid = counted & np.isfinite(values)
+    if not valid.any():
         return None
-    spent = np.bincount(np.digitize(values[there], edges), held_s[there], len(edges) + 1)
+    spent = np.bincount(np.digitize(values[valid], edges), seconds[valid], len(edges) + 1)
     limits: list[float | None] = [None, *edges, None]
     return Distribution(
         channel,
@@ -174,10 +174,10 @@ def distribution(
             Band(low, high, float(time_s))
             for (low, high), time_s in zip(pairwise(limits), spent, strict=True)
         ),
-        mean=float(np.average(values[there], weights=held_s[there])),
-        most=float(values[there].max()),
-        known_s=float(held_s[there].sum()),
-        unknown_s=float(held_s[~np.isfinite(values)].sum()),
+        mean=float(np.average(values[valid], weights=seconds[valid])),
+        most=float(values[valid].max()),
+        known_s=float(seconds[valid].sum()),
+        unknown_s=float(seconds[~np.isfinite(values)].sum()),
     )
 
 
@@ -207,22 +207,22 @@ def lap_figures(
     laps: Iterable[tuple[float, float]],
 ) -> list[LapFigures]:
     """Of laps from when to when, over rows (n,) that begin at start_s."""
-    found = []
+    figures = []
     for from_s, to_s in laps:
         first, last = np.searchsorted(start_s, (from_s - 1e-6, to_s - 1e-6))
         rows = slice(int(first), int(last))
         means = (mean(columns.get(name), seconds, rows) for name in MEANS)
         km = None if step_m is None else float(step_m[rows].sum()) / 1000.0
-        found.append(LapFigures(from_s, to_s, float(seconds[rows].sum()), km, *means))
-    return found
+        figures.append(LapFigures(from_s, to_s, float(seconds[rows].sum()), km, *means))
+    return figures
 
 
 def mean(values: Values | None, seconds: Values, rows: slice) -> float | None:
     """Mean of rows by how long they hold."""
     if values is None:
         return None
-    there = np.isfinite(values[rows])
-    held_s = float(seconds[rows][there].sum())
-    if held_s <= 0.0:
+    valid = np.isfinite(values[rows])
+    duration_s = float(seconds[rows][valid].sum())
+    if duration_s <= 0.0:
         return None
-    return float((values[rows][there] * seconds[rows][there]).sum()) / held_s
+    return float((values[rows][valid] * seconds[rows][valid]).sum()) / duration_s

@@ -51,10 +51,10 @@ def energy_shares(
         total: Values = np.bincount(of, amounts[inside], minlength=count).astype(np.float64)
         return total
 
-    def energy_wh(power_w: Values, there: npt.NDArray[np.bool_]) -> list[float | None]:
-        known = np.bincount(of[there[inside]], minlength=count)
-        held = summed(np.where(there, power_w, 0.0) * seconds) / SECONDS_PER_HOUR
-        return [float(wh) if rows else None for wh, rows in zip(held, known, strict=True)]
+    def energy_wh(power_w: Values, present: npt.NDArray[np.bool_]) -> list[float | None]:
+        present_count = np.bincount(of[present[inside]], minlength=count)
+        energy = summed(np.where(present, power_w, 0.0) * seconds) / SECONDS_PER_HOUR
+        return [float(wh) if rows else None for wh, rows in zip(energy, present_count, strict=True)]
 
     none: list[float | None] = [None] * count
     powers = {name: columns.get(name) for name in (RIDER_POWER.name, MOTOR_POWER.name)}
@@ -67,11 +67,11 @@ def energy_shares(
         none if power is None else energy_wh(power, np.isfinite(power))
         for power in (rider, motor, columns.get(BATTERY_POWER.name))
     ]
-    held_s = summed(seconds)
-    km = none if step_m is None else [float(way) / 1000.0 for way in summed(step_m)]
+    seconds_in = summed(seconds)
+    km = none if step_m is None else [float(metres) / 1000.0 for metres in summed(step_m)]
     return [
         EnergyShare(
-            float(held_s[group]),
+            float(seconds_in[group]),
             km[group],
             spent[0][group],
             spent[1][group],

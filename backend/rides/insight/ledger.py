@@ -42,7 +42,7 @@ class EnergyLedger:
         self._config_of = config_of
 
     def __call__(self, ride_id: int) -> dict[str, Any]:
-        """The answer as the API tells it. Raises NotFound; InvalidRequest without the channels."""
+        """The answer as in the API. Raises NotFound; InvalidRequest without the channels."""
         reader = self._store.rides.reader(ride_id)
         missing = channels_missing(reader.ride)
         if missing:
@@ -52,7 +52,7 @@ class EnergyLedger:
                 code="missing_channel",
             )
         parts = stretches(self._config_of, reader.ride)
-        known = source_of(parts) == "ride"
+        is_known = source_of(parts) == "ride"
         uses = {part.from_s: {table: TableUse.none() for table in PARAMETERS_OF} for part in parts}
         seconds, motor_ws, excluded_s = np.zeros(SLOTS), np.zeros(SLOTS), 0.0
         measured = False
@@ -60,22 +60,22 @@ class EnergyLedger:
         for start, stop, part in pieces(reader, parts):
             columns, spent_s = reader.values(names, start, stop), row_s[start:stop]
             power_w = columns.get(MOTOR_POWER.name, np.full(stop - start, np.nan))
-            there = np.isfinite(power_w)
-            measured |= bool(there.any())
+            present = np.isfinite(power_w)
+            measured |= bool(present.any())
             seconds += by_slot(columns, spent_s)
-            motor_ws += by_slot(columns, np.where(there, power_w, 0.0) * spent_s)
-            excluded_s += float(np.sum(spent_s[~there]))
+            motor_ws += by_slot(columns, np.where(present, power_w, 0.0) * spent_s)
+            excluded_s += float(np.sum(spent_s[~present]))
             of_part = uses[part.from_s]
-            for table in of_part if known else ():
+            for table in of_part if is_known else ():
                 of_part[table] += use_of(columns, spent_s, part.config, table)
         total_wh = float(motor_ws.sum()) / SECONDS_PER_HOUR if measured else None
-        rules = told_rules(parts, uses, total_wh) if known else None
+        rules = rules_by_energy(parts, uses, total_wh) if is_known else None
         return {
             "ride_id": ride_id,
             "config_source": source_of(parts),
             "motor_wh": total_wh,
             "motor_excluded_s": excluded_s,
-            "modes": told_modes(seconds, motor_ws / SECONDS_PER_HOUR, parts, total_wh),
+            "modes": mode_shares(seconds, motor_ws / SECONDS_PER_HOUR, parts, total_wh),
             "rules": rules,
             "without_rule_wh": None
             if rules is None or total_wh is None
@@ -86,8 +86,8 @@ class EnergyLedger:
 def by_slot(columns: Mapping[str, Values], amounts: Values) -> Values:
     """Amounts (n,) added up by the selected mode, (SLOTS,); nobody's are left out."""
     mode = columns["assist_mode"]
-    told = np.isfinite(mode) & (mode >= 0) & (mode < SLOTS)
-    added = np.bincount(mode[told].astype(np.intp), amounts[told], minlength=SLOTS)
+    valid = np.isfinite(mode) & (mode >= 0) & (mode < SLOTS)
+    added = np.bincount(mode[valid].astype(np.intp), amounts[valid], minlength=SLOTS)
     return added.astype(np.float64)
 
 
@@ -104,7 +104,7 @@ def use_of(
     )
 
 
-def told_modes(
+def mode_shares(
     seconds: Values,
     motor_wh: Values,
     parts: Sequence[Stretch],
@@ -112,7 +112,7 @@ def told_modes(
 ) -> list[dict[str, Any]]:
     """The modes that were selected, by slot; names and laws only of a known configuration, as they
     were at the end, and no law of a mode that changed its own."""
-    known = source_of(parts) == "ride"
+    is_known = source_of(parts) == "ride"
     names = parts[-1].config["mode_names"]
     laws = [
         {str(part.config["mode_laws"][slot]).lower() for part in parts} for slot in range(SLOTS)
@@ -120,8 +120,8 @@ def told_modes(
     return [
         {
             "mode": slot,
-            "name": names[slot] if known else None,
-            "law": laws[slot].pop() if known and len(laws[slot]) == 1 else None,
+            "name": names[slot] if is_known else None,
+            "law": laws[slot].pop() if is_known and len(laws[slot]) == 1 else None,
             "seconds": float(seconds[slot]),
             "motor_wh": None if total_wh is None else float(motor_wh[slot]),
             "share": share(float(motor_wh[slot]), total_wh),
@@ -131,7 +131,7 @@ def told_modes(
     ]
 
 
-def told_rules(
+def rules_by_energy(
     parts: Sequence[Stretch],
     uses: Mapping[float, Mapping[str, TableUse]],
     total_wh: float | None,
@@ -156,7 +156,7 @@ def told_rules(
                 sums = carried.setdefault(rule, [0.0, 0.0])
                 sums[0] += float(use.seconds[row, column])
                 sums[1] += float(use.motor_wh[row, column])
-    found = [
+    rules = [
         {
             **dict(zip(RULE_FIELDS, rule, strict=True)),
             "seconds": seconds,
@@ -165,7 +165,7 @@ def told_rules(
         }
         for rule, (seconds, motor_wh) in carried.items()
     ]
-    return sorted(found, key=lambda rule: -rule["motor_wh"])
+    return sorted(rules, key=lambda rule: -rule["motor_wh"])
 
 
 def share(part_wh: float, total_wh: float | None) -> float | None:

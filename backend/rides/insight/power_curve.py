@@ -45,27 +45,27 @@ def power_curve(
     """
     if not len(power_w):
         return []
-    there = np.isfinite(power_w)
+    valid = np.isfinite(power_w)
     begins, ends = start_s, start_s + seconds
     # Corners of two lines over time: work, and time without a sample; a pause is one more piece.
     corner_s = np.column_stack((begins, ends)).reshape(-1).round(6)
-    work_j = np.where(there, power_w, 0.0) * seconds
-    holes = np.where(there, 0.0, seconds)
+    work_j = np.where(valid, power_w, 0.0) * seconds
+    holes = np.where(valid, 0.0, seconds)
     pauses = np.append(0.0, begins[1:] - ends[:-1])
     work = np.cumsum(np.column_stack((np.zeros(len(work_j)), work_j)).reshape(-1))
     missing = np.cumsum(np.column_stack((np.maximum(pauses, 0.0), holes)).reshape(-1))
-    corner_s, kept = np.unique(corner_s, return_index=True)
-    work, missing = work[kept], missing[kept]
+    corner_s, first = np.unique(corner_s, return_index=True)
+    work, missing = work[first], missing[first]
     longest_s = longest_run(corner_s, missing)
     lengths = [float(length) for length in durations_s if length < longest_s - MISSING_S]
-    found = [best_mean(corner_s, work, missing, length) for length in (*lengths, longest_s)]
-    return [best for best in found if best is not None]
+    means = [best_mean(corner_s, work, missing, length) for length in (*lengths, longest_s)]
+    return [best for best in means if best is not None]
 
 
 def longest_run(corner_s: Values, missing_s: Values) -> float:
     """The longest stretch between corners in which nothing is missing."""
-    whole = np.diff(missing_s) <= MISSING_S
-    edges = np.flatnonzero(np.diff(np.concatenate(([False], whole, [False])).astype(np.int8)))
+    unbroken = np.diff(missing_s) <= MISSING_S
+    edges = np.flatnonzero(np.diff(np.concatenate(([False], unbroken, [False])).astype(np.int8)))
     runs = edges.reshape(-1, 2)
     longest = max((corner_s[stop] - corner_s[start] for start, stop in runs), default=0.0)
     return round(float(longest), 6)
@@ -82,8 +82,8 @@ def best_mean(
         # Even rows: a stretch that begins at a corner ends at one, and nothing is between them.
         gained, gone = work_j[rows:] - work_j[:-rows], missing_s[rows:] - missing_s[:-rows]
         return best_of(corner_s[:-rows], gained, gone, length)
-    found = [best_from(corner_s, work_j, missing_s, length, at) for at in (0.0, length)]
-    return max((best for best in found if best), key=lambda best: best.power_w, default=None)
+    candidates = [best_from(corner_s, work_j, missing_s, length, at) for at in (0.0, length)]
+    return max((best for best in candidates if best), key=lambda best: best.power_w, default=None)
 
 
 def best_from(
@@ -110,8 +110,8 @@ def is_even(corner_s: Values, rows: int, length: float) -> bool:
 
 def best_of(begins: Values, work_j: Values, missing_s: Values, length: float) -> BestMean | None:
     """The best of stretches (m,) by when they begin, their work and their time without samples."""
-    whole = missing_s <= MISSING_S
-    if not whole.any():
+    unbroken = missing_s <= MISSING_S
+    if not unbroken.any():
         return None
-    best = int(np.argmax(np.where(whole, work_j, -np.inf)))
+    best = int(np.argmax(np.where(unbroken, work_j, -np.inf)))
     return BestMean(length, float(work_j[best]) / length, float(begins[best]))

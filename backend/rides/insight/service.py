@@ -23,13 +23,13 @@ from backend.rides.insight.distance import climb_of, gradient_pct
 from backend.rides.insight.effort import MEANS, LapFigures, lap_figures
 from backend.rides.insight.energy_split import GRADIENT_EDGES_PCT, by_gradient, energy_shares
 from backend.rides.insight.power_curve import power_curve
-from backend.rides.rows import WAY, RideColumns, columns_of
+from backend.rides.rows import DISTANCE_CHANNELS, RideColumns, columns_of
 from backend.rides.settings_in_force import ConfigOf, Stretch, all_through, source_of, stretches
 from backend.store import Store
 
 MODE, ALTITUDE, SOC = "assist_mode", "altitude_m", "battery_soc_pct"
 POWERS = (RIDER_POWER.name, MOTOR_POWER.name, BATTERY_POWER.name)
-ENERGY_CHANNELS = (*POWERS, *WAY, MODE, ALTITUDE, SOC)
+ENERGY_CHANNELS = (*POWERS, *DISTANCE_CHANNELS, MODE, ALTITUDE, SOC)
 
 
 class RideEnergy:
@@ -40,25 +40,29 @@ class RideEnergy:
         self._config_of = config_of
 
     def __call__(self, ride_id: int) -> dict[str, Any]:
-        """The answer as the API tells it. Raises NotFound, ObjectDamaged."""
+        """The answer as in the API. Raises NotFound, ObjectDamaged."""
         ride = columns_of(self._store, ride_id, ENERGY_CHANNELS)
-        step_m = ride.way.step_m if ride.way else None
+        step_m = ride.distances.step_m if ride.distances else None
         everything = np.zeros(len(ride.seconds), np.intp)
-        (whole,) = energy_shares(ride.values, ride.seconds, step_m, everything, 1)
-        km = whole.distance_km or 0.0
-        gradients, unknown_s = told_gradients(ride)
+        (total,) = energy_shares(ride.values, ride.seconds, step_m, everything, 1)
+        km = total.distance_km or 0.0
+        gradients, unknown_s = gradient_shares(ride)
         altitude = ride[ALTITUDE]
-        climb = ride.way and altitude is not None and climb_of(altitude, ride.way, ride.start_s)
+        climb = (
+            ride.distances
+            and altitude is not None
+            and climb_of(altitude, ride.distances, ride.start_s)
+        )
         soc = ride[SOC]
         charge = None
         if soc is not None:
             charge = charge_of(soc, ride[BATTERY_POWER.name], ride.seconds, step_m)
         return {
             "ride_id": ride_id,
-            "whole": asdict(whole),
-            "lost_km": ride.way.lost_m / 1000.0 if ride.way else None,
-            "battery_wh_per_km": whole.battery_wh / km if whole.battery_wh and km else None,
-            "modes": told_modes(ride, stretches(self._config_of, ride.ride)),
+            "whole": asdict(total),
+            "lost_km": ride.distances.lost_m / 1000.0 if ride.distances else None,
+            "battery_wh_per_km": total.battery_wh / km if total.battery_wh and km else None,
+            "modes": mode_shares(ride, stretches(self._config_of, ride.ride)),
             "gradients": gradients,
             "gradient_unknown_s": unknown_s,
             "climb": asdict(climb) if climb else None,
@@ -67,16 +71,16 @@ class RideEnergy:
         }
 
 
-def told_modes(ride: RideColumns, parts: Sequence[Stretch]) -> list[dict[str, Any]]:
+def mode_shares(ride: RideColumns, parts: Sequence[Stretch]) -> list[dict[str, Any]]:
     """The modes that were selected; names only where they are known, as they were at the end."""
     mode = ride[MODE]
     if mode is None or not np.isfinite(mode).any():
         return []
-    there = np.isfinite(mode)
-    slots, places = np.unique(mode[there].astype(np.intp), return_inverse=True)
+    valid = np.isfinite(mode)
+    slots, places = np.unique(mode[valid].astype(np.intp), return_inverse=True)
     groups = np.full(len(mode), -1, np.intp)
-    groups[there] = places
-    step_m = ride.way.step_m if ride.way else None
+    groups[valid] = places
+    step_m = ride.distances.step_m if ride.distances else None
     shares = energy_shares(ride.values, ride.seconds, step_m, groups, len(slots))
     names = parts[-1].config["mode_names"] if source_of(parts) == "ride" else ()
     return [
@@ -85,15 +89,15 @@ def told_modes(ride: RideColumns, parts: Sequence[Stretch]) -> list[dict[str, An
     ]
 
 
-def told_gradients(ride: RideColumns) -> tuple[list[dict[str, Any]] | None, float | None]:
+def gradient_shares(ride: RideColumns) -> tuple[list[dict[str, Any]] | None, float | None]:
     """Bands of gradient that were ridden, and how long it was not known; None without heights."""
     altitude = ride[ALTITUDE]
-    if altitude is None or ride.way is None:
+    if altitude is None or ride.distances is None:
         return None, None
-    groups = by_gradient(gradient_pct(altitude, ride.way, ride.start_s))
+    groups = by_gradient(gradient_pct(altitude, ride.distances, ride.start_s))
     edges = (None, *GRADIENT_EDGES_PCT, None)
     count = len(edges) - 1
-    shares = energy_shares(ride.values, ride.seconds, ride.way.step_m, groups, count)
+    shares = energy_shares(ride.values, ride.seconds, ride.distances.step_m, groups, count)
     bands = [
         {"from_pct": low, "to_pct": high, **asdict(share)}
         for (low, high), share in zip(pairwise(edges), shares, strict=True)
@@ -119,14 +123,14 @@ class RideEffort:
         threshold_power_w: float | None = None,
         heart_rate_bpm_max: float | None = None,
     ) -> dict[str, Any]:
-        """The answer as the API tells it; what a ride has no channel for is None.
+        """The answer as in the API; what a ride has no channel for is None.
 
         threshold_power_w: what the rider can hold for an hour. heart_rate_bpm_max: his greatest.
         None: nobody told, so there are bands and no zones. Raises NotFound, ObjectDamaged.
         """
-        ride = columns_of(self._store, ride_id, (*effort.NEEDED, *MEANS, *WAY))
+        ride = columns_of(self._store, ride_id, (*effort.NEEDED, *MEANS, *DISTANCE_CHANNELS))
         seconds = effort.by_seconds(ride.values, ride.start_s, ride.seconds)
-        told = {
+        distributions = {
             "power": effort.power_time(seconds, threshold_power_w),
             "heart_rate": effort.heart_time(seconds, heart_rate_bpm_max),
             "torque": effort.torque_time(seconds),
@@ -134,23 +138,23 @@ class RideEffort:
         }
         power = ride.values.get(effort.POWER, np.empty(0))
         # A head unit without a meter may write nothing but zeros.
-        given = bool(np.any(power > 0.0))
-        curve = power_curve(power, ride.start_s, ride.seconds) if given else []
+        has_power = bool(np.any(power > 0.0))
+        curve = power_curve(power, ride.start_s, ride.seconds) if has_power else []
         return {
             "ride_id": ride_id,
-            **{name: asdict(found) if found else None for name, found in told.items()},
+            **{name: asdict(found) if found else None for name, found in distributions.items()},
             "torque_of_power": ride[effort.TORQUE] is None,
             "power_curve": [asdict(best) for best in curve],
-            "laps": [asdict(lap) for lap in told_laps(ride)],
+            "laps": [asdict(lap) for lap in laps_of_ride(ride)],
         }
 
 
-def told_laps(ride: RideColumns) -> list[LapFigures]:
+def laps_of_ride(ride: RideColumns) -> list[LapFigures]:
     """The laps that somebody marked off; a lap as long as the ride is none."""
-    laps = [(lap.from_s, lap.to_s) for lap in ride.ride.noted.laps]
+    laps = [(lap.from_s, lap.to_s) for lap in ride.ride.metadata.laps]
     if len(laps) < 2:
         return []
-    step_m = ride.way.step_m if ride.way else None
+    step_m = ride.distances.step_m if ride.distances else None
     return lap_figures(ride.values, ride.start_s, ride.seconds, step_m, laps)
 
 
@@ -167,9 +171,9 @@ class RidePedalling:
         self._config_of = config_of
 
     def __call__(self, ride_id: int) -> dict[str, Any]:
-        """The answer as the API tells it. Raises NotFound, ObjectDamaged."""
+        """The answer as in the API. Raises NotFound, ObjectDamaged."""
         ride = columns_of(self._store, ride_id, PEDALLING_CHANNELS)
-        crank = told_crank(ride)
+        crank = crank_of_ride(ride)
         speed, gain = ride[SPEED], ride[GAIN]
         of_gain = None
         if speed is not None and gain is not None:
@@ -185,7 +189,7 @@ class RidePedalling:
         }
 
 
-def told_crank(ride: RideColumns) -> CrankTorque | str:
+def crank_of_ride(ride: RideColumns) -> CrankTorque | str:
     """The torque over the angle, or why it cannot be told."""
     angle, torque, cadence = ride[ANGLE], ride[TORQUE], ride[CADENCE]
     if angle is None:

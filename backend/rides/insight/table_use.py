@@ -37,7 +37,7 @@ RISING_S_MIN = 60.0
 """Of less time nothing is proposed."""
 NEEDED = ("speed_kmh", "torque_rate", "assist_mode", "cadence_rpm")
 # What was asked of the motor: a ride has one of them, or both.
-ASKED = (MOTOR_TORQUE_DEMANDED, MOTOR_TORQUE)
+DEMAND_CHANNELS = (MOTOR_TORQUE_DEMANDED, MOTOR_TORQUE)
 FUZZY_GAIN = "fuzzy_gain"
 
 Cells = npt.NDArray[np.float64]
@@ -98,9 +98,9 @@ def acting(columns: Mapping[str, Values], slots: Collection[int], needs_gain: bo
     slots: the modes that run by the table. needs_gain: a gain of nothing was not the table's; so it
     is where the unit has none while the torque falls. Walk assist has no gain at all.
     """
-    asked = next(columns[name] for name in ASKED if name in columns)
+    demand = next(columns[name] for name in DEMAND_CHANNELS if name in columns)
     acts = np.isin(columns["assist_mode"], list(slots))
-    acts &= (columns["cadence_rpm"] > 0.0) & (asked > 0.0)
+    acts &= (columns["cadence_rpm"] > 0.0) & (demand > 0.0)
     acts &= np.isfinite(columns["speed_kmh"]) & np.isfinite(columns["torque_rate"])
     if FUZZY_GAIN in columns:
         gain = columns[FUZZY_GAIN]
@@ -129,12 +129,12 @@ def table_use(
         (places + SETS + 1, faster * higher),
     ]
     power_w = columns.get(MOTOR_POWER.name, np.full(len(seconds), np.nan))
-    known = np.isfinite(power_w)
-    work_wh = np.where(known, power_w, 0.0) * seconds / SECONDS_PER_HOUR
+    valid = np.isfinite(power_w)
+    work_wh = np.where(valid, power_w, 0.0) * seconds / SECONDS_PER_HOUR
     return TableUse(
         seconds=spread(corners, seconds),
-        motor_wh=spread(corners, work_wh) if known.any() else None,
-        motor_excluded_s=float(np.sum(seconds[~known])),
+        motor_wh=spread(corners, work_wh) if valid.any() else None,
+        motor_excluded_s=float(np.sum(seconds[~valid])),
         rising_s=rising(columns["torque_rate"], seconds),
     )
 
@@ -142,9 +142,9 @@ def table_use(
 def rising(torque_rate: Values, seconds: Values) -> Values:
     """Time at each torque rate (RATE_STEPS,) of samples (n,); what does not rise is left out."""
     steps = np.clip((torque_rate / RATE_STEP).astype(np.intp), 0, RATE_STEPS - 1)
-    held = np.bincount(steps, weights=seconds, minlength=RATE_STEPS).astype(np.float64)
-    held[0] = 0.0
-    return held
+    seconds_in = np.bincount(steps, weights=seconds, minlength=RATE_STEPS).astype(np.float64)
+    seconds_in[0] = 0.0
+    return seconds_in
 
 
 def memberships(points: Sequence[float], values: Values) -> tuple[npt.NDArray[np.intp], Values]:
@@ -195,10 +195,10 @@ class UseOfTable:
         ride_ids: Sequence[int] | None = None,
         device: str | None = None,
     ) -> dict[str, Any]:
-        """The answer as the API tells it. Raises InvalidRequest, NotFound."""
+        """The answer as in the API. Raises InvalidRequest, NotFound."""
         points = checked(speed_points_kmh, torque_rate_points)
         rides, more = self._chosen(ride_ids, device)
-        whole = TableUse.none()
+        total = TableUse.none()
         counted: list[Ride] = []
         without: list[dict[str, Any]] = []
         by_defaults: list[int] = []
@@ -207,7 +207,7 @@ class UseOfTable:
             if reason is not None:
                 without.append({"id": ride.id, **reason})
                 continue
-            whole += use
+            total += use
             counted.append(ride)
             if source == "defaults":
                 by_defaults.append(ride.id)
@@ -218,7 +218,7 @@ class UseOfTable:
             "rides_by_defaults": by_defaults,
             "more": more,
             "since": iso_utc(min(ride.started_us for ride in counted)) if counted else None,
-            **told(whole, points),
+            **told(total, points),
         }
 
     def _chosen(
@@ -251,8 +251,8 @@ class UseOfTable:
         parts = stretches(self._config_of, ride)
         source = source_of(parts)
         try:
-            asked = any(slots_by(part.config, table) for part in parts)
-            use = self._use(ride, parts, table, points) if asked else none
+            has_table = any(slots_by(part.config, table) for part in parts)
+            use = self._use(ride, parts, table, points) if has_table else none
         except ObjectDamaged as damage:
             return none, source, {"code": damage.code, "message": damage.message}
         if not use.seconds.any():
@@ -302,7 +302,7 @@ def channels_missing(ride: Ride) -> list[str]:
     """What a ride lacks for saying where in a table it was."""
     offered = {channel.name for channel in ride.channels}
     missing = [name for name in NEEDED if name not in offered]
-    return missing if offered.intersection(ASKED) else [*missing, ASKED[-1]]
+    return missing if offered.intersection(DEMAND_CHANNELS) else [*missing, DEMAND_CHANNELS[-1]]
 
 
 def slots_by(config: Mapping[str, Any], table: str) -> list[int]:
@@ -312,11 +312,11 @@ def slots_by(config: Mapping[str, Any], table: str) -> list[int]:
     """
     laws = config.get("mode_laws", ())
     numbers = config.get("mode_tables", [0] * len(laws))
-    wanted = tuple(PARAMETERS_OF).index(table)
+    law_number = tuple(PARAMETERS_OF).index(table)
     return [
         slot
         for slot, (law, number) in enumerate(zip(laws, numbers, strict=True))
-        if str(law).lower() == "fuzzy" and number == wanted
+        if str(law).lower() == "fuzzy" and number == law_number
     ]
 
 
@@ -328,12 +328,12 @@ def needs_gain(config: Mapping[str, Any]) -> bool:
 def names_for_use(ride: Ride) -> list[str]:
     """What the view asks for of a ride, some of which it may lack."""
     offered = {channel.name for channel in ride.offered}
-    asked = next(name for name in ASKED if name in offered)
-    return [*NEEDED, asked, FUZZY_GAIN, MOTOR_POWER.name]
+    demand = next(name for name in DEMAND_CHANNELS if name in offered)
+    return [*NEEDED, demand, FUZZY_GAIN, MOTOR_POWER.name]
 
 
 def told(use: TableUse, points: Points) -> dict[str, Any]:
-    """Sums and cells as the API tells them."""
+    """Sums and cells as in the API."""
     total_s = float(use.seconds.sum())
     wh = use.motor_wh
 

@@ -56,7 +56,7 @@ def export_rides(
 ) -> StreamingResponse:
     """Rides as a ZIP with an `index.csv` that lists them and what could not be made of them."""
     ride_ids = [int(number) for number in ids.split(",")] if ids else []
-    chunks = rides.archive(formats, blur_m, ride_ids, **kind.told())
+    chunks = rides.archive(formats, blur_m, ride_ids, **kind.filters())
     headers = {"content-disposition": 'attachment; filename="spindle-rides.zip"'}
     return StreamingResponse(chunks, media_type="application/zip", headers=headers)
 

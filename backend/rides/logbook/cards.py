@@ -19,7 +19,7 @@ from backend.errors import NotFound, SpindleError
 from backend.rides.insight.distance import climb_of
 from backend.rides.insight.power_curve import power_curve
 from backend.rides.logbook.towns import Gazetteer
-from backend.rides.rows import WAY, RideColumns, columns_of
+from backend.rides.rows import DISTANCE_CHANNELS, RideColumns, columns_of
 from backend.store import Store
 
 LOG = logging.getLogger(__name__)
@@ -37,7 +37,7 @@ class DueRides(ABC):
     def __init__(self, store: Store, due: Callable[[int], list[int]]) -> None:
         self._store = store
         self._due = due
-        self._seen = -1
+        self._finishes_done = -1
 
     @abstractmethod
     def make(self, ride: Ride) -> None:
@@ -46,7 +46,7 @@ class DueRides(ABC):
     def tick(self) -> int:
         """Make some of what is due; of how many. Looks only when a ride got its rows."""
         finishes = self._store.rides.finishes
-        if finishes == self._seen:
+        if finishes == self._finishes_done:
             return 0
         over_s = time.monotonic() + TICK_S
         due = self._due(RIDES_AT_ONCE)
@@ -58,7 +58,7 @@ class DueRides(ABC):
             except NotFound:
                 continue
         if len(due) < RIDES_AT_ONCE:
-            self._seen = finishes
+            self._finishes_done = finishes
         return len(due)
 
 
@@ -73,7 +73,7 @@ def made_or(empty: Made, name: str, ride: Ride, make: Callable[[], Made]) -> Mad
     return empty
 
 
-CHANNELS = (*WAY, "altitude_m", "latitude_deg", "longitude_deg", RIDER_POWER.name)
+CHANNELS = (*DISTANCE_CHANNELS, "altitude_m", "latitude_deg", "longitude_deg", RIDER_POWER.name)
 # A town further away is not where the ride was; its time zone still is.
 TOWN_MAX_M = 20_000.0
 ZONE_MAX_M = 300_000.0
@@ -91,7 +91,7 @@ class RideCards(DueRides):
         card = made_or(
             RideCard(), "card", ride, lambda: card_of(columns_of(self._store, ride.id, CHANNELS))
         )
-        self._store.cards.keep(ride, card, self._place(card))
+        self._store.cards.save(ride, card, self._place(card))
 
     def _place(self, card: RideCard) -> RidePlace:
         """Where the ride began, as far as the gazetteer knows."""
@@ -110,8 +110,10 @@ class RideCards(DueRides):
 def card_of(rows: RideColumns) -> RideCard:
     """The card of a ride whose CHANNELS these are; climb and powers as the ride's page tells."""
     begin, is_loop = ends_of(rows["latitude_deg"], rows["longitude_deg"])
-    heights, way = rows["altitude_m"], rows.way
-    climb = None if heights is None or way is None else climb_of(heights, way, rows.start_s)
+    heights, distances = rows["altitude_m"], rows.distances
+    climb = (
+        None if heights is None or distances is None else climb_of(heights, distances, rows.start_s)
+    )
     return RideCard(
         speed_line=speed_line(rows.start_s, rows["speed_kmh"]),
         ascent_m=None if climb is None else climb.ascent_m,
@@ -128,5 +130,5 @@ def best_powers(rows: RideColumns) -> tuple[float | None, ...]:
     if power is None or not (power > 0.0).any():
         return (None,) * len(BEST_S)
     curve = power_curve(power, rows.start_s, rows.seconds, BEST_S)
-    best = {found.duration_s: found.power_w for found in curve}
+    best = {point.duration_s: point.power_w for point in curve}
     return tuple(best.get(float(seconds)) for seconds in BEST_S)

@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
 
-from backend.core.calendar import MONDAY, Period, asked_zone, last_months, last_weeks
+from backend.core.calendar import MONDAY, Period, last_months, last_weeks, require_zone
 from backend.core.ride import iso_utc
 from backend.core.ride_tags import clean_tags
 from backend.store import Store, Totals
@@ -34,10 +34,10 @@ class RiderHomeService:
 
         zone: the rider's, of the IANA database. week_begins: 1 Monday to 7 Sunday.
         """
-        here, now = asked_zone(zone), self._clock()
+        here, now = require_zone(zone), self._clock()
         spans = last_weeks(now, here, week_begins), last_months(now, here)
         home = self._store.logbook.home(spans, bike_id)
-        weeks, months = map(told, spans, home.by_period)
+        weeks, months = map(with_totals, spans, home.by_period)
         return {
             "weeks": weeks,
             "months": months,
@@ -72,7 +72,7 @@ class RiderHomeService:
         self._store.logbook.tag(ride_ids, clean_tags(add), clean_tags(remove))
 
 
-def told(periods: Sequence[Period], totals: Sequence[Totals]) -> list[Mapping[str, object]]:
+def with_totals(periods: Sequence[Period], totals: Sequence[Totals]) -> list[Mapping[str, object]]:
     """Periods with what the rides in them come to."""
     return [
         {
@@ -86,7 +86,7 @@ def told(periods: Sequence[Period], totals: Sequence[Totals]) -> list[Mapping[st
 
 
 def figures(totals: Totals) -> dict[str, object]:
-    """Totals as the API tells them: the rider's mean power instead of the time it is of."""
+    """Totals as in the API: the rider's mean power instead of the time it is of."""
     body = asdict(totals)
     rider_s = body.pop("rider_s")
     watts = totals.rider_wh * 3600 / rider_s if totals.rider_wh is not None and rider_s else None

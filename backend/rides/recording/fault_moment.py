@@ -41,7 +41,7 @@ DECIMALS = 4
 # Rows that are further apart tell no moment; also the share of the last second that may lack.
 ROW_US_MAX = 50_000
 # After a longer silence the stream begins anew: nothing is made up for minutes without a unit.
-KEPT_GAP_US_MAX = 60_000_000
+JOINED_GAP_US_MAX = 60_000_000
 
 
 @described
@@ -98,14 +98,14 @@ class RecentRows:
         if not isinstance(event, StreamBlock):
             return
         with self._lock:
-            kept = self._blocks.setdefault(device_id, deque())
-            if kept and not follows(kept[-1], event):
-                kept.clear()
+            recent = self._blocks.setdefault(device_id, deque())
+            if recent and not follows(recent[-1], event):
+                recent.clear()
                 self._rows[device_id] = 0
-            kept.append(event)
+            recent.append(event)
             rows = self._rows.get(device_id, 0) + len(event.values)
             while rows > STREAM_ROWS_MAX:
-                rows -= len(kept.popleft().values)
+                rows -= len(recent.popleft().values)
             self._rows[device_id] = rows
 
     def around(self, device_id: str, t_us: int) -> Cut | None:
@@ -155,22 +155,22 @@ class FaultMoments:
 
     def __call__(self, device_id: str, fault_name: str) -> FaultMoment:
         """Raises NotFound for a unit or a fault that is not there, NoAnswer, ObjectDamaged."""
-        found = next((one for one in self._faults_of(device_id) if one.name == fault_name), None)
-        if found is None:
+        fault = next((one for one in self._faults_of(device_id) if one.name == fault_name), None)
+        if fault is None:
             raise NotFound(f"{device_id} has no fault {fault_name}, and none is remembered.")
-        if found.frozen is None:
+        if fault.frozen is None:
             return FaultMoment(fault_name, missing="no_frame")
-        t_us, context = found.frozen.t_us, self._context_of(device_id)
+        t_us, context = fault.frozen.t_us, self._context_of(device_id)
         ride = self._ride_at(context, t_us)
         if ride is not None:
             cut = self._cut(ride, t_us)
-            told = moment(fault_name, t_us, cut, ride.context.gear_ratio, ride.state == "live")
+            result = moment(fault_name, t_us, cut, ride.context.gear_ratio, ride.state == "live")
             ride_t_s = (t_us - start_us(ride)) / 1e6
-            return replace(told, source="ride", ride_id=ride.id, ride_t_s=ride_t_s)
+            return replace(result, source="ride", ride_id=ride.id, ride_t_s=ride_t_s)
         recent = self._recent.around(device_id, t_us)
         if recent is not None:
-            told = moment(fault_name, t_us, recent, context.gear_ratio, goes_on=True)
-            return replace(told, source="stream")
+            result = moment(fault_name, t_us, recent, context.gear_ratio, goes_on=True)
+            return replace(result, source="stream")
         return FaultMoment(fault_name, unit_t_us=t_us, missing="not_recorded")
 
     def _ride_at(self, now: RideContext, t_us: int) -> Ride | None:
@@ -178,10 +178,10 @@ class FaultMoments:
         if now.unit_key is None or now.boot_id is None:
             return None
         for ride in self._rides.list(Sought(device=now.unit_key), RIDES_MAX).items:
-            told, period_us = ride.context, ride.period_us
-            if told.boot_id != now.boot_id or told.unit_t0_us is None or period_us is None:
+            recorded, period_us = ride.context, ride.period_us
+            if recorded.boot_id != now.boot_id or recorded.unit_t0_us is None or period_us is None:
                 continue
-            if 0 <= t_us - told.unit_t0_us < ride.row_count * period_us:
+            if 0 <= t_us - recorded.unit_t0_us < ride.row_count * period_us:
                 return ride
         return None
 
@@ -212,12 +212,12 @@ def moment(fault: str, t_us: int, cut: Cut, gear_ratio: float | None, goes_on: b
         motor_torque_meaning=None if at_crank is None else motor_torque_meaning(cut.channels),
         whole=not goes_on or last_us >= t_us + AFTER_US - ROW_US_MAX,
         at_s=((cut.t_us - t_us) / 1e6).tolist(),
-        rider_torque_nm=told_values(rider, len(cut.t_us)),
-        motor_torque_nm=told_values(at_crank, len(cut.t_us)),
+        rider_torque_nm=numbers_or_none(rider, len(cut.t_us)),
+        motor_torque_nm=numbers_or_none(at_crank, len(cut.t_us)),
     )
 
 
-def told_values(values: Values | None, count: int) -> list[float | None]:
+def numbers_or_none(values: Values | None, count: int) -> list[float | None]:
     """Samples as numbers, None for each without a reading; count: how many there are."""
     if values is None:
         return [None] * count
@@ -227,7 +227,7 @@ def told_values(values: Values | None, count: int) -> list[float | None]:
 def follows(last: StreamBlock, block: StreamBlock) -> bool:
     """Whether a block goes on where another ended, rows lost between them or not."""
     same = (last.period_us, last.channels) == (block.period_us, block.channels)
-    return same and block.t0_us > last.t0_us and block.t0_us - end_us(last) < KEPT_GAP_US_MAX
+    return same and block.t0_us > last.t0_us and block.t0_us - end_us(last) < JOINED_GAP_US_MAX
 
 
 def end_us(block: StreamBlock) -> int:

@@ -35,15 +35,15 @@ class Finishing:
         cut_short: the bike moved when the recording ended.
         """
 
-        def told(future: Future[Ride | None]) -> None:
+        def done(future: Future[Ride | None]) -> None:
             if future.exception() is None:
                 self._unfinished.pop(ride_id, None)
             elif ride_id not in self._unfinished:
                 self._unfinished[ride_id] = 0, cut_short
-                tell_trouble(ride_id, future)
+                log_failure(ride_id, future)
 
         finished: Future[Ride | None] = self._rides.finish_later(ride_id, cut_short)
-        finished.add_done_callback(told)
+        finished.add_done_callback(done)
         return finished
 
     def tick(self, now_us: int) -> None:
@@ -56,7 +56,7 @@ class Finishing:
                 self.finish(ride_id, cut_short)
 
 
-def tell_trouble(ride_id: int, future: Future[Ride | None]) -> None:
+def log_failure(ride_id: int, future: Future[Ride | None]) -> None:
     """Say in the log when a ride could not be finished."""
     error = future.exception()
     if isinstance(error, StoreError):
@@ -68,13 +68,13 @@ def tell_trouble(ride_id: int, future: Future[Ride | None]) -> None:
 @dataclass
 class RideClock:
     """By which clock a ride is dated. offset_us: Unix time minus the host's steady time as its
-    start is told by. heard_us: that steady time when its newest rows came."""
+    start is told by. last_rows_us: that steady time when its newest rows came."""
 
     offset_us: int
-    heard_us: int
+    last_rows_us: int
 
 
-def tell_clock(
+def redate_after_clock_set(
     rides: RideStore, ride_id: int, clock: RideClock, offset_us: int, t_s: float
 ) -> bool:
     """Date a ride anew where the host's clock was set since, and mark it; True once that is done.
@@ -93,7 +93,7 @@ def tell_clock(
     return False
 
 
-def tell_context(rides: RideStore, ride_id: int, began: RideContext, now: RideContext) -> None:
+def complete_context(rides: RideStore, ride_id: int, began: RideContext, now: RideContext) -> None:
     """Say what the unit told of itself only after the bike began to move.
 
     The configuration that was in force at the start stays the ride's.

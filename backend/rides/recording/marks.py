@@ -21,21 +21,21 @@ class RideMark:
 
 
 class MarkMoment:
-    """known: raises NotFound for a unit that nobody knows."""
+    """require: raises NotFound for an unknown unit."""
 
     def __init__(
-        self, recorder: Recorder, marks: MarkStore, known: Callable[[str], object]
+        self, recorder: Recorder, marks: MarkStore, require: Callable[[str], object]
     ) -> None:
         self._recorder = recorder
         self._marks = marks
-        self._known = known
+        self._require = require
 
     def __call__(self, device_id: str) -> RideMark:
         """Mark the newest moment of a unit's ride.
 
         Raises NotFound, Conflict `no_ride` while the unit records none, `marks_full`, StoreError.
         """
-        self._known(device_id)
+        self._require(device_id)
         newest = self._recorder.newest(device_id)
         if newest is None:
             raise Conflict("No ride is being recorded; one begins when the bike moves.", "no_ride")

@@ -35,7 +35,12 @@ from backend.rides.recording.bounds import (
     rows_until_still,
     still_rows,
 )
-from backend.rides.recording.finishing import Finishing, RideClock, tell_clock, tell_context
+from backend.rides.recording.finishing import (
+    Finishing,
+    RideClock,
+    complete_context,
+    redate_after_clock_set,
+)
 from backend.rides.recording.ride_tail import RecorderHealth, RideTail
 from backend.rides.recording.running import RunningTotals
 from backend.rides.settings_in_force import SettingsInForce
@@ -129,7 +134,7 @@ class UnitRecorder:
         self._period_us = 0
         self._live: LiveRide | None = None
         self._lead: deque[StreamBlock] = deque()
-        self._told_trouble = False
+        self._has_logged_error = False
         # Read by those who must not wait for the lock.
         self.counts = RecorderHealth()
         self.lost_lately = 0
@@ -149,22 +154,22 @@ class UnitRecorder:
                     self._take_unit_event(event)
                 elif isinstance(event, StateChanged) and event.state is LinkState.CLOSED:
                     self._end()
-                self._told_trouble = False
+                self._has_logged_error = False
             except StoreError as error:
                 # The reader thread must go on whatever the disk says; the log need not repeat it.
-                if not self._told_trouble:
+                if not self._has_logged_error:
                     LOG.warning("Unit %s is not recorded: %s", self._device_id, error.message)
-                self._told_trouble = True
+                self._has_logged_error = True
 
     def end_if_lost(self, now_us: int) -> None:
         """End the ride of a unit that has been silent for `lost_s`; now_us: Unix time."""
         with self._lock:
-            heard_us = self._live.clock.heard_us if self._live else now_us
-            silent_us = now_us - self._offset_us() - heard_us
+            last_rows_us = self._live.clock.last_rows_us if self._live else now_us
+            silent_us = now_us - self._offset_us() - last_rows_us
             if self._live and silent_us > self._settings.lost_s * 1e6:
                 self._end()
 
-    def look_again(self) -> None:
+    def retry(self) -> None:
         """Give a store that refused rows another chance, without waiting for it; and look whether
         the host's clock was set."""
         with self._lock:
@@ -199,11 +204,10 @@ class UnitRecorder:
             if live is None:
                 return None
             live.tail.collect()
-            found = live.tail.counts
-            rows = found.rows_saved + found.rows_lost + found.rows_waiting
-            return RecordingStatus(
-                live.tail.ride_id, rows, found.rows_saved, found.rows_lost, self.missing.rows
-            )
+            counts = live.tail.counts
+            saved, lost = counts.rows_saved, counts.rows_lost
+            rows = saved + lost + counts.rows_waiting
+            return RecordingStatus(live.tail.ride_id, rows, saved, lost, self.missing.rows)
 
     @property
     def newest(self) -> tuple[int, float] | None:
@@ -257,7 +261,7 @@ class UnitRecorder:
             self._lead.clear()
         if len(moving):
             return self._begin(block, int(moving[0]))
-        self._keep_lead(block)
+        self._store_lead(block)
         return rows_after(block, len(block.values))
 
     def _continues(self, live: LiveRide, block: StreamBlock) -> bool:
@@ -269,11 +273,11 @@ class UnitRecorder:
         due_us = live.t0_us + live.tail.rows * self._period_us
         return round((block.t0_us - due_us) / self._period_us)
 
-    def _keep_lead(self, block: StreamBlock) -> None:
+    def _store_lead(self, block: StreamBlock) -> None:
         """Remember the rows before the first movement, as long as they follow one another."""
         self._lead.append(block)
-        keep_us = self._settings.lead_in_s * 1e6
-        while len(self._lead) > 1 and block.t0_us - self._lead[1].t0_us >= keep_us:
+        lead_us = self._settings.lead_in_s * 1e6
+        while len(self._lead) > 1 and block.t0_us - self._lead[1].t0_us >= lead_us:
             self._lead.popleft()
 
     def _follows(self, last: StreamBlock, block: StreamBlock) -> bool:
@@ -283,8 +287,8 @@ class UnitRecorder:
     def _begin(self, block: StreamBlock, first_moving: int) -> StreamBlock:
         """Starts a ride `lead_in_s` before the first moving row; returns the block's rows of it."""
         lead_rows = sum(len(lead.values) for lead in self._lead)
-        kept = round(self._settings.lead_in_s * 1e6 / self._period_us)
-        skipped = max(0, lead_rows + first_moving - kept)
+        lead_rows_max = round(self._settings.lead_in_s * 1e6 / self._period_us)
+        skipped = max(0, lead_rows + first_moving - lead_rows_max)
         t0_us = (self._lead[0] if self._lead else block).t0_us + skipped * self._period_us
         started_us = block.wall_us - (block.t0_us - t0_us)
         context = replace(self._context(), unit_t0_us=t0_us)
@@ -345,7 +349,7 @@ class UnitRecorder:
         live.still_rows = still_rows(moving[moving < taken], taken, live.still_rows)
         live.tail.add(block.values[:taken])
         live.totals.add(block.values[:taken])
-        live.clock.heard_us = block.wall_us - self._offset_us()
+        live.clock.last_rows_us = block.wall_us - self._offset_us()
         if live.tail.rows_unsent * self._period_us >= self._settings.tail_s * 1e6:
             # A change of which the unit's own event was lost, or came while it was away.
             now_s = (live.tail.rows - taken) * self._period_us / 1e6
@@ -388,7 +392,7 @@ class UnitRecorder:
         if ride_id is None:
             return None
         now = replace(self._context(), unit_t0_us=ride.t0_us)
-        tell_context(self._rides, ride_id, ride.context, now)
+        complete_context(self._rides, ride_id, ride.context, now)
         # Still rows are at the end: without any the bike moved when the recording ended.
         self._finishing = self._finish(ride_id, ride.still_rows == 0)
         return self._finishing
@@ -398,7 +402,7 @@ class UnitRecorder:
         if (ride_id := ride.tail.ride_id) is None:
             return True
         t_s = ride.tail.rows * self._period_us / 1e6
-        return tell_clock(self._rides, ride_id, ride.clock, self._offset_us(), t_s)
+        return redate_after_clock_set(self._rides, ride_id, ride.clock, self._offset_us(), t_s)
 
 
 class Recorder:
@@ -454,8 +458,8 @@ class Recorder:
 
     def running(self, ride_id: int) -> RideSummary | None:
         """What a ride that is being recorded comes to so far; None for any other."""
-        found = (unit.running(ride_id) for unit in self._all())
-        return next((summary for summary in found if summary), None)
+        running = (unit.running(ride_id) for unit in self._all())
+        return next((summary for summary in running if summary), None)
 
     def counts(self, device_id: str) -> RecorderHealth:
         """What became of a unit's rows; never waits."""
@@ -470,14 +474,14 @@ class Recorder:
     def rows_missing_lately(self) -> Sequence[tuple[str, LostBy, int]]:
         """Units whose latest ride lacks rows that never came, where most of them were lost, and how
         many there are in all; never waits."""
-        found = [(name, unit.missing.most) for name, unit in list(self._units.items())]
-        return [(name, *most) for name, most in found if most]
+        missing = [(name, unit.missing.most) for name, unit in list(self._units.items())]
+        return [(name, *most) for name, most in missing if most]
 
     def tick(self, now_us: int) -> None:
         """End rides of silent units, and try again what the store refused; now_us: Unix time."""
         for unit in self._all():
             unit.end_if_lost(now_us)
-            unit.look_again()
+            unit.retry()
         self._rides.beat(now_us)
         self._finisher.tick(now_us)
 

@@ -57,22 +57,22 @@ class _Tail:
 class RideTail:
     """One ride's rows. The caller sees to it that one thread at a time is in here.
 
-    begin: makes the ride in the store, once it lets us, and returns its id. tell: is told of rows
-    as they are taken, saved and lost: the changes of rows_saved, rows_lost, rows_waiting.
+    begin: makes the ride in the store, once it lets us, and returns its id. report: gets the
+    changes of rows_saved, rows_lost and rows_waiting.
     """
 
     def __init__(
-        self, rides: RideStore, begin: Callable[[], int], tell: Callable[[int, int, int], None]
+        self, rides: RideStore, begin: Callable[[], int], report: Callable[[int, int, int], None]
     ) -> None:
         self._rides = rides
         self._begin = begin
-        self._tell = tell
+        self._report = report
         self._unsent: list[Rows16] = []
         self._unsent_taken = 0
         self._unsent_events: tuple[RideEvent, ...] = ()
         # By row_start: what is given up is the oldest, however often it was tried.
         self._waiting: list[_Tail] = []
-        self._on_the_way: deque[tuple[Future[None], _Tail]] = deque()
+        self._in_progress: deque[tuple[Future[None], _Tail]] = deque()
         self._refused = False
         self.ride_id: int | None = None
         # Rows of the ride, missing ones included.
@@ -80,12 +80,12 @@ class RideTail:
         self.rows_unsent = 0
         self.counts = RecorderHealth()
         # Why the store refused last.
-        self.trouble: StoreError | None = None
+        self.error: StoreError | None = None
 
     @property
     def is_empty(self) -> bool:
         """Whether every row is saved or lost."""
-        return not (self._unsent or self._waiting or self._on_the_way)
+        return not (self._unsent or self._waiting or self._in_progress)
 
     @property
     def tails_waiting(self) -> int:
@@ -122,32 +122,32 @@ class RideTail:
             return
         if not self._refused:
             self._submit(len(self._waiting))
-        elif not self._on_the_way:
+        elif not self._in_progress:
             self._submit(1)
 
     def collect(self) -> None:
         """Count what the store has taken, and take back what it refused. Never waits."""
-        while self._on_the_way and self._on_the_way[0][0].done():
-            future, tail = self._on_the_way.popleft()
+        while self._in_progress and self._in_progress[0][0].done():
+            future, tail = self._in_progress.popleft()
             error = future.exception()
             self._refused = error is not None
             if error is None:
                 self._count(tail.taken, 0, -tail.taken)
                 continue
-            self.trouble = error if isinstance(error, StoreError) else StoreError(str(error))
+            self.error = error if isinstance(error, StoreError) else StoreError(str(error))
             insort(self._waiting, tail, key=_row_start)
 
     def drain(self) -> bool:
         """Wait until the store has taken everything or refused it again; True for everything."""
         self.send()
         for _ in range(LAST_TRIES):
-            for future, _tail in self._on_the_way:
+            for future, _tail in self._in_progress:
                 future.exception()
             self.collect()
             if self.is_empty:
                 return True
             self.push()
-        for future, _tail in self._on_the_way:
+        for future, _tail in self._in_progress:
             future.exception()
         self.collect()
         return self.is_empty
@@ -165,7 +165,7 @@ class RideTail:
                 self.ride_id = self._begin()
                 self._refused = False
             except StoreError as error:
-                self.trouble = error
+                self.error = error
                 return False
         return True
 
@@ -178,17 +178,17 @@ class RideTail:
                     self.ride_id, tail.row_start, tail.rows, tail.events
                 )
             except StoreError as error:
-                self.trouble = error
+                self.error = error
                 self._refused = True
                 self._waiting.insert(0, tail)
                 return
-            self._on_the_way.append((future, tail))
+            self._in_progress.append((future, tail))
 
     def _count(self, saved: int, lost: int, waiting: int) -> None:
         self.counts.rows_saved += saved
         self.counts.rows_lost += lost
         self.counts.rows_waiting += waiting
-        self._tell(saved, lost, waiting)
+        self._report(saved, lost, waiting)
 
 
 def _row_start(tail: _Tail) -> int:

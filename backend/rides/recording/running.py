@@ -50,9 +50,9 @@ class RunningTotals:
                 found["moving_km"] = float(np.sum(moving))
                 found["moving_s"] = float(len(moving))
         for power in self._powers:
-            there = present(self._values(power.name, rows))
-            if len(there):
-                found[power.name] = float(np.sum(there))
+            valid = present(self._values(power.name, rows))
+            if len(valid):
+                found[power.name] = float(np.sum(valid))
         sums = {name: self._sums.get(name, 0.0) + value for name, value in found.items()}
         self._sums = {**self._sums, **sums}
 

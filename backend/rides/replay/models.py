@@ -54,7 +54,7 @@ class AgainRequest(OtherSettings):
         "0.5, and a wider band.",
     )
 
-    def told(self) -> RiderAndBike:
+    def rider_and_bike(self) -> RiderAndBike:
         """Of rider and bike."""
         return RiderAndBike(self.mass_kg, self.drag_area_m2)
 
@@ -120,7 +120,7 @@ class RideCurves(Answer):
 class ClosedLoop(Answer):
     """The same road again with other settings: an estimate with its band.
 
-    Peak torque and its steepest rise are not told: they cannot be forecast.
+    Peak torque and its steepest rise are not reported: they cannot be forecast.
     """
 
     meaning: str = Field(description="What it is and what it leaves out, in English.")

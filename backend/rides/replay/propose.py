@@ -33,9 +33,9 @@ from backend.law.rider_and_bike import RiderAndBike
 from backend.rides.replay.ride_again import twin_of
 from backend.rides.settings_in_force import ConfigOf, unchanged
 from backend.store import Store
-from backend.tuning.limit_proof import StoredLimitProofs
+from backend.tuning.limit_proof import LimitProofMaker
 
-JOBS_KEPT = 20
+JOBS_MAX = 20
 WAITING_MAX = 4
 RIDES_MAX = 5
 SEARCH_S_MAX = 60.0
@@ -121,7 +121,7 @@ class Proposals:
         self,
         store: Store,
         config_of: ConfigOf,
-        proofs: StoredLimitProofs,
+        proofs: LimitProofMaker,
         generations: int = GENERATIONS,
     ) -> None:
         self._generations = generations
@@ -139,9 +139,9 @@ class Proposals:
         objective: str,
         knobs: Sequence[str] = proposal.KNOBS,
         target_pct: float | None = None,
-        told: RiderAndBike | None = None,
+        rider_and_bike: RiderAndBike | None = None,
     ) -> Job:
-        """A new job. target_pct: how much of the wish; told: of rider and bike.
+        """A new job. target_pct: how much is wished.
 
         Raises NotFound, InvalidRequest for rides that cannot be ridden again or tell nothing of
         this wish, Conflict while too many jobs wait.
@@ -154,7 +154,7 @@ class Proposals:
             raise Conflict(f"{waiting} proposals are being made: wait or cancel one.", "busy")
         config, source = unchanged(self._config_of, self._store.rides.get(ride_ids[0]))
         config = {**law.law_defaults(), **config}
-        twins = [self._twin(ride_id, told or RiderAndBike()) for ride_id in ride_ids]
+        twins = [self._twin(ride_id, rider_and_bike or RiderAndBike()) for ride_id in ride_ids]
         road = proposal.Road(twins, objective, config)
         space = proposal.Space(config, road.modes, knobs)
         if target_pct is None:
@@ -173,8 +173,8 @@ class Proposals:
         work = _Work(job, road, space, twins, config)
         with self._lock:
             self._work[number] = work
-            for old in [key for key, kept in self._work.items() if kept.job.state not in RUNNING]:
-                if len(self._work) > JOBS_KEPT:
+            for old in [key for key, one in self._work.items() if one.job.state not in RUNNING]:
+                if len(self._work) > JOBS_MAX:
                     del self._work[old]
         self._pool.submit(self._run, work)
         return job
@@ -201,17 +201,17 @@ class Proposals:
 
     def _find(self, job_id: str) -> _Work:
         with self._lock:
-            found = self._work.get(job_id)
-        if found is None:
+            work = self._work.get(job_id)
+        if work is None:
             raise NotFound(f"There is no proposal {job_id}: this server keeps the newest alone.")
-        return found
+        return work
 
-    def _twin(self, ride_id: int, told: RiderAndBike) -> law.RoadTwin:
+    def _twin(self, ride_id: int, rider_and_bike: RiderAndBike) -> law.RoadTwin:
         reader = self._store.rides.reader(ride_id)
         own = {**law.law_defaults(), **unchanged(self._config_of, reader.ride)[0]}
-        return twin_of(reader, own, told)
+        return twin_of(reader, own, rider_and_bike)
 
-    def _tell(self, work: _Work, **news: Any) -> None:
+    def _update(self, work: _Work, **news: Any) -> None:
         with self._lock:
             if work.job.state in RUNNING:
                 work.job = replace(work.job, **news)
@@ -229,11 +229,11 @@ class Proposals:
             else:
                 detail = "Within these knobs nothing was found that is better and without a doubt."
                 news = {"state": "failed", "code": "nothing_found", "detail": detail}
-            self._tell(work, seconds=seconds, **news)
+            self._update(work, seconds=seconds, **news)
         except SpindleError as error:
-            self._tell(work, state="failed", code=error.code, detail=error.message)
+            self._update(work, state="failed", code=error.code, detail=error.message)
         except Exception:
-            self._tell(work, state="failed", code="internal", detail="The search broke off.")
+            self._update(work, state="failed", code="internal", detail="The search broke off.")
             raise
 
     def _searched(self, work: _Work, began: float) -> list[Tried]:
@@ -242,7 +242,7 @@ class Proposals:
         def going() -> bool:
             seconds = time.monotonic() - began
             share = 0.9 * min(1.0, max(tried / in_all, seconds / SEARCH_S_MAX))
-            self._tell(work, state="riding", progress=share, rides_ridden=tried, seconds=seconds)
+            self._update(work, state="riding", progress=share, rides_ridden=tried, seconds=seconds)
             return not work.stopped.is_set() and seconds < SEARCH_S_MAX
 
         def evaluate(point: Any) -> tuple[float, float] | None:
@@ -251,7 +251,7 @@ class Proposals:
             return scores_of(work, point)
 
         front = front_of(evaluate, work.space.start, going, self._generations)
-        self._tell(work, state="proving", rides_ridden=tried)
+        self._update(work, state="proving", rides_ridden=tried)
         return front
 
     def _proven(self, work: _Work, front: Sequence[Tried]) -> tuple[Candidate, ...]:
@@ -263,23 +263,23 @@ class Proposals:
             for gain, one in zip(gains, front, strict=True)
             if 0.1 * job.target_pct < gain <= BEYOND * job.target_pct
         ]
-        kept: list[Candidate] = []
-        known = codes_of(work.config, work.space.which)
+        proposed: list[Candidate] = []
+        existing_codes = codes_of(work.config, work.space.which)
         for gain, one in nearest_first(worth, job.target_pct):
-            if work.stopped.is_set() or len(kept) == SHOWN:
+            if work.stopped.is_set() or len(proposed) == SHOWN:
                 break
             one = plain(work, one)
             gain = proposal.gained_pct(job.objective, before, one.scores[0])
             changes = work.space.changes(one.point)
-            if any(abs(gain - other.gained_pct) < 0.15 * job.target_pct for other in kept):
+            if any(abs(gain - other.gained_pct) < 0.15 * job.target_pct for other in proposed):
                 continue
             config = {**work.config, **changes}
-            if not codes_of(config, work.space.which) <= known:
+            if not codes_of(config, work.space.which) <= existing_codes:
                 continue
             proof = self._proofs.of(config)
             if proof.holds:
-                kept.append(self._candidate(work, gain, changes, proof.sha256))
-        return recommended(sorted(kept, key=lambda one: one.gained_pct))
+                proposed.append(self._candidate(work, gain, changes, proof.sha256))
+        return recommended(sorted(proposed, key=lambda one: one.gained_pct))
 
     def _candidate(
         self, work: _Work, gain: float, changes: dict[str, Any], sha256: str
@@ -319,18 +319,18 @@ def scores_of(work: _Work, point: Any) -> tuple[float, float] | None:
     return ridden.aim, ridden.cost(work.road.before, work.job.objective)
 
 
-def plain(work: _Work, found: Tried) -> Tried:
+def plain(work: _Work, best: Tried) -> Tried:
     """The same without the knobs that make no difference: what need not change stays."""
     for part in work.space.parts():
-        point = found.point.copy()
+        point = best.point.copy()
         point[part] = np.nan
         scores = scores_of(work, point)
         if scores is None:
             continue
-        no_worse = scores[0] <= found.scores[0] * (1.0 + SAME_AIM)
-        if no_worse and scores[1] <= found.scores[1] + SAME_COST_PCT:
-            found = Tried(point, scores)
-    return found
+        no_worse = scores[0] <= best.scores[0] * (1.0 + SAME_AIM)
+        if no_worse and scores[1] <= best.scores[1] + SAME_COST_PCT:
+            best = Tried(point, scores)
+    return best
 
 
 def figures(work: _Work, config: Mapping[str, Any]) -> tuple[ProposalFigure, ProposalFigure]:
@@ -338,11 +338,13 @@ def figures(work: _Work, config: Mapping[str, Any]) -> tuple[ProposalFigure, Pro
     that was not measured is the twin's own, in the band of the motor's work."""
     after = work.road.ridden(config)
     assert after is not None
-    told = [twin.corrected(totals) for twin, totals in zip(work.twins, after.totals, strict=True)]
+    results = [
+        twin.corrected(totals) for twin, totals in zip(work.twins, after.totals, strict=True)
+    ]
     bands = [twin.band(config) for twin in work.twins]
 
     def summed(name: str, factor: float = 1.0) -> ProposalFigure:
-        now = factor * sum(one[name] for one in told)
+        now = factor * sum(one[name] for one in results)
         low, high = (factor * sum(band[name][end] for band in bands) for end in (0, 1))
         before = factor * sum(twin.recorded[name] for twin in work.twins)
         return ProposalFigure(before, now, min(low, now), max(high, now))

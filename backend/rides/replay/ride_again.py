@@ -49,7 +49,7 @@ Config = Mapping[str, Any]
 Estimate = dict[str, float]
 Samples = npt.NDArray[np.void]
 CheckConnected = Callable[[], None]
-NOTHING_TOLD = RiderAndBike()
+UNSPECIFIED = RiderAndBike()
 
 
 def as_ever() -> None:
@@ -66,20 +66,20 @@ class RideAgain:
     def __call__(
         self,
         ride_id: int,
-        told: RiderAndBike = NOTHING_TOLD,
+        rider_and_bike: RiderAndBike = UNSPECIFIED,
         check_connected: CheckConnected = as_ever,
         **changes: Any,
     ) -> dict[str, Any]:
-        """The estimate as the API tells it.
+        """The estimate as in the API.
 
-        told: of rider and bike. check_connected: called before every ride of the twin; what it
-        raises ends the estimate. changes: as of `changed_config`. Raises NotFound; InvalidRequest
-        with the reason where the ride cannot be trusted for that, or for settings the law refuses.
+        check_connected: called before every ride of the twin; what it raises ends the estimate.
+        changes: as of `changed_config`. Raises NotFound; InvalidRequest with the reason where the
+        ride cannot be trusted for that, or for settings the law refuses.
         """
         reader = self._store.rides.reader(ride_id)
         config, _ = unchanged(self._config_of, reader.ride)
         changed = changed_config(config, **changes)
-        twin = twin_of(reader, config, told)
+        twin = twin_of(reader, config, rider_and_bike)
         check_connected()
         again, samples = twin.ridden(changed, twin.rider, sample_steps=1)
         if again.gave_up:
@@ -109,8 +109,8 @@ def trust(twin: law.RoadTwin, own: law.Totals) -> dict[str, Any]:
     }
 
 
-def twin_of(reader: RideReader, config: Config, told: RiderAndBike) -> law.RoadTwin:
-    """The ride's twin. config: the unit's on the ride. told: of rider and bike.
+def twin_of(reader: RideReader, config: Config, rider_and_bike: RiderAndBike) -> law.RoadTwin:
+    """The ride's twin. config: the unit's on the ride.
 
     Raises InvalidRequest with the reason where the ride cannot be trusted for that.
     """
@@ -118,7 +118,7 @@ def twin_of(reader: RideReader, config: Config, told: RiderAndBike) -> law.RoadT
     refuse_what_cannot_be_laid_over(reader, columns)
     step_s = (reader.ride.period_us or 0) / 1e6
     ride = law.recorded_ride(with_brake(columns), config, step_s)
-    twin = law.RoadTwin(ride, config, told)
+    twin = law.RoadTwin(ride, config, rider_and_bike)
     refuse_what_differs(reader.ride.id, twin)
     return twin
 
@@ -181,18 +181,18 @@ def refuse_what_differs(ride_id: int, twin: law.RoadTwin) -> None:
         )
 
 
-def share_off(told_j: float, recorded_j: float) -> float:
+def share_off(estimated_j: float, recorded_j: float) -> float:
     """How far a work is off, as a share of the recorded one."""
-    return (told_j - recorded_j) / max(abs(recorded_j), law.WORK_LEAST_J)
+    return (estimated_j - recorded_j) / max(abs(recorded_j), law.WORK_LEAST_J)
 
 
 def estimates(twin: law.RoadTwin, again: law.Totals, band: law.Band) -> dict[str, Estimate | None]:
     """Each figure of the ride with its band; None for what the ride did not record."""
-    recorded, told = twin.recorded, twin.corrected(again)
+    recorded, corrected = twin.recorded, twin.corrected(again)
 
     def of(name: str, factor: float = 1.0) -> Estimate | None:
         low, high = band[name]
-        return estimate(*(factor * value for value in (recorded[name], told[name], low, high)))
+        return estimate(*(factor * value for value in (recorded[name], corrected[name], low, high)))
 
     km = float(twin.ride.distance_m[-1]) / 1000.0
     per_wh = 1.0 / SECONDS_PER_HOUR
@@ -201,7 +201,7 @@ def estimates(twin: law.RoadTwin, again: law.Totals, band: law.Band) -> dict[str
         "wh_per_km": of("motor_work_j", per_wh / km),
         "motor_work_wh": of("motor_work_j", per_wh),
         "battery_wh": battery,
-        "km_per_100_wh": battery and way_on(battery, 100.0 * km),
+        "km_per_100_wh": battery and range_on(battery, 100.0 * km),
         "rider_work_wh": of("rider_work_j", per_wh),
         "duration_s": of("duration_s"),
         "motor_power_w_mean": of("motor_power_w"),
@@ -209,20 +209,20 @@ def estimates(twin: law.RoadTwin, again: law.Totals, band: law.Band) -> dict[str
     }
 
 
-def estimate(recorded: float, told: float, low: float, high: float) -> Estimate | None:
+def estimate(recorded: float, estimated: float, low: float, high: float) -> Estimate | None:
     """An estimate beside the record; None where nothing was recorded."""
     if not math.isfinite(recorded):
         return None
     return {
         "recorded": recorded,
-        "replayed": told,
-        "difference": told - recorded,
-        "low": min(low, told),
-        "high": max(high, told),
+        "replayed": estimated,
+        "difference": estimated - recorded,
+        "low": min(low, estimated),
+        "high": max(high, estimated),
     }
 
 
-def way_on(battery_wh: Estimate, wh_km: float) -> Estimate | None:
+def range_on(battery_wh: Estimate, wh_km: float) -> Estimate | None:
     """How far some energy of the battery goes: the more it takes, the less far."""
     if min(battery_wh["low"], battery_wh["recorded"]) <= 0.0:
         return None
@@ -234,18 +234,18 @@ def limits(twin: law.RoadTwin, own: law.Totals, again: law.Totals) -> list[dict[
     """Seconds on the way that each limit was at work, where it was. What the record has on top of
     the twin without a change is on top of the estimate too."""
     recorded = law.limits_of_record(twin.ride)
-    told = []
+    shown = []
     for name, own_s in own.limit_s.items():
         recorded_s = None if recorded is None else recorded[name]
         beyond_s = 0.0 if recorded_s is None else recorded_s - own_s
         replayed_s = max(again.limit_s[name] + beyond_s, 0.0)
         if max(recorded_s or 0.0, replayed_s) > 0.0:
-            told.append({"limit": name, "recorded_s": recorded_s, "replayed_s": replayed_s})
-    return told
+            shown.append({"limit": name, "recorded_s": recorded_s, "replayed_s": replayed_s})
+    return shown
 
 
 def curves(twin: law.RoadTwin, own: Samples, again: Samples) -> dict[str, Any]:
-    """The three rides over the distance, as the API tells them."""
+    """The three rides over the distance, as in the API."""
     turn_m = 2.0 * math.pi * twin.reach_m
     ends_km = law.places_km(twin.ride, turn_m)
     of = {
@@ -254,11 +254,11 @@ def curves(twin: law.RoadTwin, own: Samples, again: Samples) -> dict[str, Any]:
         "replayed": law.curves_of(again, ends_km),
     }
     middles = 0.5 * (ends_km[1:] + ends_km[:-1])
-    told = {
-        ride: {name: nullable(values) for name, values in found.items()}
-        for ride, found in of.items()
+    series = {
+        ride: {name: nullable(values) for name, values in values_by_name.items()}
+        for ride, values_by_name in of.items()
     }
-    return {"distance_km": middles.tolist(), **told}
+    return {"distance_km": middles.tolist(), **series}
 
 
 def nullable(values: Values) -> list[float | None]:

@@ -74,7 +74,7 @@ class RideReplay:
         second_table: Mapping[str, Any] | None = None,
         parameters: Mapping[str, Any] | None = None,
     ) -> dict[str, Any]:
-        """The comparison as the API tells it. fuzzy_table and the rest: as of `changed_config`.
+        """The comparison as in the API. fuzzy_table and the rest: as of `changed_config`.
 
         Raises InvalidRequest for a ride that lacks what the law needs, or settings it refuses.
         """
@@ -116,7 +116,7 @@ class RideReplay:
             "range_km": None,
             "motor_work_wh": compared(recorded_wh, replayed.motor_work_wh),
             "motor_torque_nm_max": compared(largest(recorded_nm), replayed.motor_torque_nm_max),
-            **on_the_way(
+            **moving_figures(
                 columns["speed_kmh"] / KMH_PER_MS > law.STANDING_MS,
                 (recorded_wh, recorded_nm),
                 (replayed.motor_work_wh, new_nm),
@@ -161,20 +161,20 @@ def read_columns(reader: RideReader, start: int = 0, stop: int | None = None) ->
     ]
     spans = [span.rows(reader.period_us) for span in reader.ride.filled]
     read = reader.values(names, start, stop)
-    return {name: held(values, spans, start) for name, values in read.items()}
+    return {name: held_between_samples(values, spans, start) for name, values in read.items()}
 
 
-def held(values: Values, spans: Sequence[tuple[int, int]], first: int) -> Values:
+def held_between_samples(values: Values, spans: Sequence[tuple[int, int]], first: int) -> Values:
     """Values (n,) in which a log's sample holds until the next, as in a ride of the log alone.
 
     spans: the log's rows of the ride. first: the ride's row that values[0] is of.
     """
     for begin, end in spans:
         start, stop = max(begin - first, 0), max(end - first, 0)
-        there = np.flatnonzero(np.isfinite(values[start:stop]))
-        if len(there):
-            latest = np.searchsorted(there, np.arange(len(values[start:stop])), side="right") - 1
-            values[start:stop] = values[start + there[np.maximum(latest, 0)]]
+        valid = np.flatnonzero(np.isfinite(values[start:stop]))
+        if len(valid):
+            latest = np.searchsorted(valid, np.arange(len(values[start:stop])), side="right") - 1
+            values[start:stop] = values[start + valid[np.maximum(latest, 0)]]
     return values
 
 
@@ -191,8 +191,8 @@ def inputs_missing(columns: Mapping[str, Values]) -> list[str]:
 
     What stands for them is the law's business: backend.law.replay.
     """
-    known = {name for name, values in columns.items() if np.isfinite(values).any()}
-    return [name for name in (*OPTIONAL, FLAGS) if name not in known]
+    recorded = {name for name, values in columns.items() if np.isfinite(values).any()}
+    return [name for name in (*OPTIONAL, FLAGS) if name not in recorded]
 
 
 def law_inputs(columns: Mapping[str, Values]) -> dict[str, npt.ArrayLike]:
@@ -240,7 +240,7 @@ def per_km(
     return compared(recorded, replayed_wh / distance_km)
 
 
-def on_the_way(
+def moving_figures(
     moving: npt.NDArray[np.bool_],
     recorded: tuple[float | None, Values | None],
     replayed: tuple[float, Values],
@@ -328,5 +328,5 @@ def series(
         if spec.name in columns:
             channels[spec] = columns[spec.name]
         channels[ChannelSpec(REPLAYED + spec.name, spec.unit, spec.scale)] = replayed[spec.name]
-    beside = ReplayedReader(reader.period_us or 1, channels)
-    return trace(beside, pixels=SERIES_PIXELS).to_json()
+    other = ReplayedReader(reader.period_us or 1, channels)
+    return trace(other, pixels=SERIES_PIXELS).to_json()

@@ -22,9 +22,9 @@ from backend.law import law_defaults
 from backend.rides.replay.service import LIMITS, law_inputs, read_columns, warm_up_row
 from backend.rides.settings_in_force import ConfigOf
 from backend.store import Store
-from backend.tuning.why import number, told
+from backend.tuning.why import number, why_json
 
-HELD_BY = (
+HOLDING_LIMITS = (
     "speed_cutoff",
     "brake",
     "motor_torque",
@@ -55,14 +55,14 @@ class WhyRide:
         self._config_of = config_of
 
     def __call__(self, ride_id: int, t_s: float) -> dict[str, Any]:
-        """The answer as the API tells it.
+        """The answer as in the API.
 
         t_s: seconds since the ride's start. Raises NotFound; Conflict `no_table` where the ride's
         configuration is not known; InvalidRequest for a ride that lacks what the law needs and for
         a moment without a sample.
         """
         reader = self._store.rides.reader(ride_id)
-        config = self._known_config(reader.ride, t_s)
+        config = self._recorded_config(reader.ride, t_s)
         period_us = reader.period_us or 0
         row = round(t_s * 1e6 / max(period_us, 1))
         first = min(warm_up_row(reader.ride, row), reader.row_count)
@@ -75,13 +75,13 @@ class WhyRide:
         step_s = period_us / 1e6
         readings = law_inputs(columns)
         delivered = self._delivered_nm(reader.ride, columns)
-        found = law.why(config, readings, step_s=step_s, delivered_nm=delivered)
+        why = law.why(config, readings, step_s=step_s, delivered_nm=delivered)
         moment = {"kind": "ride", "ride_id": ride_id, "t_s": row * step_s, "held_s": None}
         recorded = {
             name: number(columns[name][-1]) if name in columns else None for name in RECORDED
         }
-        worked_out = {"fuzzy_gain": found.gain, "assist_ratio": found.assist_ratio}
-        return told(found, config, readings, moment, "ride", recorded) | {
+        worked_out = {"fuzzy_gain": why.gain, "assist_ratio": why.assist_ratio}
+        return why_json(why, config, readings, moment, "ride", recorded) | {
             "warmed_up_s": (row - first) * step_s,
             "differs": differing(recorded, worked_out),
         }
@@ -89,12 +89,12 @@ class WhyRide:
     def cuts(self, ride_id: int) -> list[dict[str, Any]]:
         """Stretches in which a limit held the motor back, in order of time, as the unit told it."""
         reader = self._store.rides.reader(ride_id)
-        told = reader.values([LIMITS])
-        if LIMITS not in told or reader.period_us is None:
+        columns = reader.values([LIMITS])
+        if LIMITS not in columns or reader.period_us is None:
             return []
-        return cuts_of(np.nan_to_num(told[LIMITS]).astype(np.uint16), reader.period_us / 1e6)
+        return cuts_of(np.nan_to_num(columns[LIMITS]).astype(np.uint16), reader.period_us / 1e6)
 
-    def _known_config(self, ride: Ride, t_s: float) -> Mapping[str, Any]:
+    def _recorded_config(self, ride: Ride, t_s: float) -> Mapping[str, Any]:
         config, source = self._config_of(ride, t_s)
         if source != "ride":
             raise Conflict(
@@ -129,22 +129,25 @@ def cuts_of(flags: np.ndarray[Any, np.dtype[np.uint16]], step_s: float) -> list[
 
     At most CUTS_MAX. at_s: a moment near its middle in which a limit is at work.
     """
-    held = np.flatnonzero(flags & sum(law.LIMITS[name] for name in HELD_BY))
-    if not len(held):
+    limited = np.flatnonzero(flags & sum(law.LIMITS[name] for name in HOLDING_LIMITS))
+    if not len(limited):
         return []
-    ends = np.flatnonzero(np.diff(held) > round(CUT_HOLE_S / step_s))
-    firsts, lasts = held[np.append(0, ends + 1)], held[np.append(ends, len(held) - 1)]
+    ends = np.flatnonzero(np.diff(limited) > round(CUT_HOLE_S / step_s))
+    firsts, lasts = (
+        limited[np.append(0, ends + 1)],
+        limited[np.append(ends, len(limited) - 1)],
+    )
     long_enough = (lasts - firsts + 1) * step_s >= CUT_S_MIN
-    found = []
+    cuts = []
     for first, last in zip(firsts[long_enough], lasts[long_enough], strict=True):
-        middle = held[np.searchsorted(held, (first + last) // 2)]
+        middle = limited[np.searchsorted(limited, (first + last) // 2)]
         all_of = int(np.bitwise_or.reduce(flags[first : last + 1]))
-        found.append(
+        cuts.append(
             {
                 "from_s": float(first * step_s),
                 "to_s": float((last + 1) * step_s),
                 "at_s": float(middle * step_s),
-                "limits": [name for name in HELD_BY if law.LIMITS[name] & all_of],
+                "limits": [name for name in HOLDING_LIMITS if law.LIMITS[name] & all_of],
             }
         )
-    return found[:CUTS_MAX]
+    return cuts[:CUTS_MAX]

@@ -73,48 +73,48 @@ class ReportContent:
     diagnosis: Mapping[str, Any]
 
 
-def page(told: ReportContent, language: str) -> Iterator[str]:
+def page(content: ReportContent, language: str) -> Iterator[str]:
     """The file, piece by piece. language: one of WORDS."""
     from plotly.offline import get_plotlyjs
 
     words = WORDS[language]
     yield f'<!doctype html><html lang="{language}"><head><meta charset="utf-8">'
     yield '<meta name="viewport" content="width=device-width">'
-    yield f"<title>{escape(told.title)}</title><style>{STYLE}</style>"
+    yield f"<title>{escape(content.title)}</title><style>{STYLE}</style>"
     yield "<script>"
     yield get_plotlyjs()
     yield "</script></head><body>"
-    yield f'<h1>{escape(told.title)}</h1><p class="quiet">{escape(told.facts)}</p>'
-    yield figures(told.figures, words)
-    names = {mode["mode"]: mode["name"] for mode in told.energy["modes"]}
-    if drawn := track_map(told.track, told.events, names, words):
+    yield f'<h1>{escape(content.title)}</h1><p class="quiet">{escape(content.facts)}</p>'
+    yield figures(content.figures, words)
+    names = {mode["mode"]: mode["name"] for mode in content.energy["modes"]}
+    if drawn := track_map(content.track, content.events, names, words):
         yield f"<section><h2>{words['map']}</h2>{drawn}</section>"
-    if told.traces is not None:
-        yield f"<section><h2>{words['traces']}</h2>{picture(told.traces)}</section>"
-    yield from energy(told.energy, words)
-    yield from effort(told.effort, words)
-    yield crank(told.pedalling["crank"], words)
-    yield health(told.diagnosis, words)
-    made = words["made"].format(version=told.version)
+    if content.traces is not None:
+        yield f"<section><h2>{words['traces']}</h2>{picture(content.traces)}</section>"
+    yield from energy(content.energy, words)
+    yield from effort(content.effort, words)
+    yield crank(content.pedalling["crank"], words)
+    yield health(content.diagnosis, words)
+    made = words["made"].format(version=content.version)
     yield f'<p class="quiet">{escape(made)}</p></body></html>'
 
 
-def figures(known: Mapping[str, float | None], words: Mapping[str, str]) -> str:
+def figures(figures_by_name: Mapping[str, float | None], words: Mapping[str, str]) -> str:
     """The headline, without what the ride does not have."""
     cells = []
     for name, unit, digits in FIGURES:
-        value = known.get(name)
+        value = figures_by_name.get(name)
         if value is not None:
             text = clock(value) if name.endswith("_s") else f"{number(value, digits)} {unit}"
             cells.append(f"<div><dt>{words[name]}</dt><dd>{text}</dd></div>")
     return f"<section><h2>{words['figures']}</h2><dl>{''.join(cells)}</dl></section>"
 
 
-def energy(told: Mapping[str, Any], words: Mapping[str, str]) -> Iterator[str]:
+def energy(values: Mapping[str, Any], words: Mapping[str, str]) -> Iterator[str]:
     """By mode and by gradient, and the charge."""
-    bands = told["gradients"] or []
+    bands = values["gradients"] or []
     parts = [
-        ("mode", told["modes"], [mode_name(one, words) for one in told["modes"]]),
+        ("mode", values["modes"], [mode_name(one, words) for one in values["modes"]]),
         ("gradient", bands, [span(one, "pct", "%") for one in bands]),
     ]
     yield f"<section><h2>{words['energy']}</h2>"
@@ -125,8 +125,8 @@ def energy(told: Mapping[str, Any], words: Mapping[str, str]) -> Iterator[str]:
                 yield picture(energy_chart(labels, shares, words[key], words))
     if bands:
         yield f'<p class="quiet">{words["gradient_method"]}</p>'
-    if told["charge"]:
-        yield f"<p>{charge(told['charge'], words)}</p>"
+    if values["charge"]:
+        yield f"<p>{charge(values['charge'], words)}</p>"
     yield "</section>"
 
 
@@ -137,76 +137,76 @@ def energy_table(
     columns = [("distance_km", "km", 2), ("seconds", words["time"], 0)]
     columns += [(name, f"{words[name]}, Wh", 1) for name in ("rider_wh", "motor_wh", "battery_wh")]
     columns.append(("motor_per_rider", words["ratio"], 2))
-    there = [one for one in columns if any(share[one[0]] is not None for share in shares)]
+    shown = [one for one in columns if any(share[one[0]] is not None for share in shares)]
     rows = [
         [
             label,
             *(
                 clock(share[name]) if name == "seconds" else number(share[name], digits)
-                for name, _, digits in there
+                for name, _, digits in shown
             ),
         ]
         for label, share in zip(labels, shares, strict=True)
     ]
-    return table([head, *(title for _, title, _ in there)], rows)
+    return table([head, *(title for _, title, _ in shown)], rows)
 
 
-def charge(told: Mapping[str, Any], words: Mapping[str, str]) -> str:
+def charge(values: Mapping[str, Any], words: Mapping[str, str]) -> str:
     """The range with its band, or the charge alone."""
-    most = told["range_km_most"]
-    ends = {"first": number(told["soc_pct_first"], 1), "last": number(told["soc_pct_last"], 1)}
-    if told["range_km"] is None:
+    most = values["range_km_most"]
+    ends = {"first": number(values["soc_pct_first"], 1), "last": number(values["soc_pct_last"], 1)}
+    if values["range_km"] is None:
         return words["charge"].format(**ends)
     return words["range"].format(
-        range=number(told["range_km"], 0),
-        least=number(told["range_km_least"], 0),
+        range=number(values["range_km"], 0),
+        least=number(values["range_km_least"], 0),
         most=words["no_end"] if most is None else f"{number(most, 0)} km",
         **ends,
     )
 
 
-def effort(told: Mapping[str, Any], words: Mapping[str, str]) -> Iterator[str]:
+def effort(values: Mapping[str, Any], words: Mapping[str, str]) -> Iterator[str]:
     """Zones, bands and the power curve."""
     yield '<section class="two">'
     for name, unit in UNITS.items():
-        if told[name]:
-            bands = told[name]["bands"]
+        if values[name]:
+            bands = values[name]["bands"]
             labels = [span(band, "", "", ("low", "high")) for band in bands]
             title = f"{words[name]}, {unit}"
-            if told[name]["zones"]:
+            if values[name]["zones"]:
                 labels = [f"Z{place} {label}" for place, label in enumerate(labels, start=1)]
-                reference = f"{number(told[name]['reference'], 0)} {unit}"
+                reference = f"{number(values[name]['reference'], 0)} {unit}"
                 title += f", {words['zones_of'].format(reference=reference)}"
             spent = [band["seconds"] for band in bands]
             yield f"<div>{picture(zones_chart(labels, spent, title))}</div>"
-    if told["power_curve"]:
-        yield f"<div>{picture(curve_chart(told['power_curve'], words['power_curve']))}</div>"
+    if values["power_curve"]:
+        yield f"<div>{picture(curve_chart(values['power_curve'], words['power_curve']))}</div>"
     yield "</section>"
 
 
-def crank(told: Mapping[str, Any] | None, words: Mapping[str, str]) -> str:
+def crank(values: Mapping[str, Any] | None, words: Mapping[str, str]) -> str:
     """Torque round the crank, where it was recorded fast enough to tell."""
-    if told is None:
+    if values is None:
         return ""
-    facts = [words["dead_spot"].format(angle=number(told["dead_spot_deg"], 0))]
-    if told["left_share"] is not None:
-        share = number(100.0 * told["left_share"], 0)
+    facts = [words["dead_spot"].format(angle=number(values["dead_spot_deg"], 0))]
+    if values["left_share"] is not None:
+        share = number(100.0 * values["left_share"], 0)
         facts.insert(0, words["left_share"].format(share=share))
-    if told["lag_deg"] is not None:
-        angle, late_ms = number(told["lag_deg"], 0), number(told["lag_ms"], 0)
+    if values["lag_deg"] is not None:
+        angle, late_ms = number(values["lag_deg"], 0), number(values["lag_ms"], 0)
         facts.append(words["lag"].format(angle=angle, late_ms=late_ms))
     return (
-        f"<section><h2>{words['crank']}</h2>{picture(crank_chart(told, words))}"
+        f"<section><h2>{words['crank']}</h2>{picture(crank_chart(values, words))}"
         f"<p>{escape(' '.join(facts))}</p></section>"
     )
 
 
-def health(told: Mapping[str, Any], words: Mapping[str, str]) -> str:
+def health(values: Mapping[str, Any], words: Mapping[str, str]) -> str:
     """Every question with its answer."""
     rows = []
-    for check in told["checks"]:
+    for check in values["checks"]:
         if check["state"] == "found":
-            answer = "<br>".join(found(one, words) for one in check["findings"])
+            answer = "<br>".join(finding_line(one, words) for one in check["findings"])
         elif check["state"] == "impossible":
             answer = escape(words["impossible"].format(missing=named(check["missing"], words)))
         else:
@@ -220,7 +220,7 @@ def named(missing: Sequence[str], words: Mapping[str, str]) -> str:
     return ", ".join(words.get(name, name) for name in missing)
 
 
-def found(one: Mapping[str, Any], words: Mapping[str, str]) -> str:
+def finding_line(one: Mapping[str, Any], words: Mapping[str, str]) -> str:
     """A finding in a line: how bad, where, and what, with its numbers."""
     numbers = {name: plain(value, 3) for name, value in one["numbers"].items()}
     channel = words.get(one["channel"] or "", one["channel"])
@@ -270,6 +270,6 @@ def number(value: float | None, digits: int) -> str:
 
 def clock(seconds: float) -> str:
     """Hours, minutes and seconds."""
-    whole = round(seconds)
-    hours, minutes = divmod(whole // 60, 60)
-    return f"{hours}:{minutes:02}:{whole % 60:02}" if hours else f"{minutes}:{whole % 60:02}"
+    total = round(seconds)
+    hours, minutes = divmod(total // 60, 60)
+    return f"{hours}:{minutes:02}:{total % 60:02}" if hours else f"{minutes}:{total % 60:02}"

@@ -45,7 +45,7 @@ class RideReport:
         """The report as a file. language: `en` or `zh`. Raises NotFound, ObjectDamaged."""
         reader = self._store.rides.reader(ride_id)
         energy = self._energy(ride_id)
-        told = ReportContent(
+        content = ReportContent(
             title=reader.ride.name,
             facts=facts(reader.ride),
             version=__version__,
@@ -58,16 +58,16 @@ class RideReport:
             pedalling=self._pedalling(ride_id),
             diagnosis=self._diagnosis(ride_id),
         )
-        chunks = encoded(page(told, language))
+        chunks = encoded(page(content, language))
         return Export(f"{stem(reader.ride)}.html", "text/html; charset=utf-8", chunks)
 
 
 def facts(ride: Ride) -> str:
     """When it was and what it was made with, as far as anybody knows."""
     context = ride.context
-    known = [iso_utc(ride.started_us), context.device_model, context.device_serial]
-    known.append(ride.notes or None)
-    return " · ".join(fact for fact in known if fact)
+    parts = [iso_utc(ride.started_us), context.device_model, context.device_serial]
+    parts.append(ride.notes or None)
+    return " · ".join(fact for fact in parts if fact)
 
 
 def figures(ride: Ride, energy: dict[str, Any]) -> dict[str, float | None]:
@@ -85,7 +85,7 @@ def traces(reader: RideReader, language: str) -> Any:
     return drawn.update_layout(height=ROW_PX * rows + 60, margin={"t": 20, "r": 10})
 
 
-def encoded(pieces: Iterator[str]) -> Iterator[bytes]:
+def encoded(parts: Iterator[str]) -> Iterator[bytes]:
     """As bytes."""
-    for piece in pieces:
+    for piece in parts:
         yield piece.encode()

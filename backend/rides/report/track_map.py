@@ -66,16 +66,16 @@ def track_map(
     if drawn is None:
         return ""
     chosen = sorted((e.t_s, e.value) for e in events if e.kind == "assist_mode")
-    pieces = pieces_of(drawn, chosen)
+    segments = segments_of(drawn, chosen)
     # Wide below narrow, where a way is ridden twice.
-    lines = [line(mode, spots) for mode, spots in pieces]
+    lines = [line(mode, spots) for mode, spots in segments]
     parts = [*lines, *marks(track, drawn), *ends(drawn, words), *sides(drawn, words)]
     title = escape(words["map"])
     svg = (
         f'<svg class="map" viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="{title}">'
         f"{''.join(parts)}</svg>"
     )
-    modes = sorted({mode for mode, _ in pieces if mode is not None})
+    modes = sorted({mode for mode, _ in segments if mode is not None})
     return svg + legend(modes, names, words)
 
 
@@ -83,11 +83,11 @@ def laid_out(track: Track) -> Drawn | None:
     """The positions in pixels; None for fewer than two."""
     if track.latitude_deg is None or track.longitude_deg is None:
         return None
-    there = np.isfinite(track.latitude_deg) & np.isfinite(track.longitude_deg)
-    if there.sum() < 2:
+    valid = np.isfinite(track.latitude_deg) & np.isfinite(track.longitude_deg)
+    if valid.sum() < 2:
         return None
-    latitude_deg = track.latitude_deg[there]
-    around = np.unwrap(track.longitude_deg[there], period=360.0)
+    latitude_deg = track.latitude_deg[valid]
+    around = np.unwrap(track.longitude_deg[valid], period=360.0)
     east_m = around * np.cos(np.radians(latitude_deg.mean())) * M_PER_DEG
     south_m = -latitude_deg * M_PER_DEG
     m_per_px = max(
@@ -100,11 +100,11 @@ def laid_out(track: Track) -> Drawn | None:
         fit: Values = (metres - (metres.min() + metres.max()) / 2) / m_per_px + size / 2
         return fit
 
-    run = np.cumsum(~there)[there].astype(np.intp)
-    return Drawn(track.t_s[there], fitted(east_m, WIDTH), fitted(south_m, HEIGHT), run, m_per_px)
+    run = np.cumsum(~valid)[valid].astype(np.intp)
+    return Drawn(track.t_s[valid], fitted(east_m, WIDTH), fitted(south_m, HEIGHT), run, m_per_px)
 
 
-def pieces_of(
+def segments_of(
     drawn: Drawn, chosen: Sequence[tuple[float, int]]
 ) -> list[tuple[int | None, list[tuple[float, float]]]]:
     """Stretches of one mode without a gap, None where no mode is known yet."""
@@ -119,20 +119,20 @@ def pieces_of(
     )
     runs = drawn.run[np.searchsorted(drawn.t_s, times, side="right") - 1]
     which = np.searchsorted([t_s for t_s, _ in chosen], times, side="right") - 1
-    pieces: list[tuple[int | None, list[tuple[float, float]]]] = []
+    segments: list[tuple[int | None, list[tuple[float, float]]]] = []
     for place in range(len(times) - 1):
         if runs[place] != runs[place + 1]:
             continue
         mode = chosen[which[place]][1] if which[place] >= 0 else None
-        goes_on = pieces and pieces[-1][1][-1] is spots[place] and pieces[-1][0] == mode
+        goes_on = segments and segments[-1][1][-1] is spots[place] and segments[-1][0] == mode
         if goes_on:
-            pieces[-1][1].append(spots[place + 1])
+            segments[-1][1].append(spots[place + 1])
         else:
-            pieces.append((mode, [spots[place], spots[place + 1]]))
-    return pieces
+            segments.append((mode, [spots[place], spots[place + 1]]))
+    return segments
 
 
-def look_of(mode: int | None) -> tuple[str, str, float]:
+def style_of(mode: int | None) -> tuple[str, str, float]:
     """Colour, dash and width of a mode's line."""
     if mode is None:
         return UNKNOWN
@@ -141,30 +141,30 @@ def look_of(mode: int | None) -> tuple[str, str, float]:
 
 def line(mode: int | None, spots: Sequence[tuple[float, float]]) -> str:
     """A stretch of the track."""
-    colour, dash, width = look_of(mode)
-    way = "L".join(f"{x:.1f} {y:.1f}" for x, y in spots)
+    colour, dash, width = style_of(mode)
+    points = "L".join(f"{x:.1f} {y:.1f}" for x, y in spots)
     dashed = f' stroke-dasharray="{dash}"' if dash else ""
-    return f'<path d="M{way}" stroke="{colour}" stroke-width="{width}"{dashed}/>'
+    return f'<path d="M{points}" stroke="{colour}" stroke-width="{width}"{dashed}/>'
 
 
 def marks(track: Track, drawn: Drawn) -> list[str]:
     """Some marks at round kilometres of the way."""
     if track.distance_m is None or not np.isfinite(track.distance_m).any():
         return []
-    there = np.isfinite(track.distance_m)
-    way_m, times_s = track.distance_m[there], track.t_s[there]
-    whole_km = float(way_m[-1]) / 1000.0
-    step = max(rounded_up(whole_km / MARKS), 0.1)
-    found = []
-    for number in range(1, int(whole_km / step - 1e-9) + 1):
-        spot = drawn.at(float(np.interp(1000.0 * number * step, way_m, times_s)))
+    valid = np.isfinite(track.distance_m)
+    distance_m, times_s = track.distance_m[valid], track.t_s[valid]
+    length_km = float(distance_m[-1]) / 1000.0
+    step = max(rounded_up(length_km / MARKS), 0.1)
+    finding_line = []
+    for number in range(1, int(length_km / step - 1e-9) + 1):
+        spot = drawn.at(float(np.interp(1000.0 * number * step, distance_m, times_s)))
         if spot is not None:
             x, y = spot
-            found.append(
+            finding_line.append(
                 f'<circle cx="{x:.1f}" cy="{y:.1f}" r="11" fill="#fff" stroke="#667570"/>'
                 f'<text x="{x:.1f}" y="{y + 4:.1f}" text-anchor="middle">{number * step:g}</text>'
             )
-    return found
+    return finding_line
 
 
 def ends(drawn: Drawn, words: Mapping[str, str]) -> list[str]:
@@ -173,12 +173,12 @@ def ends(drawn: Drawn, words: Mapping[str, str]) -> list[str]:
     return [
         f'<rect x="{x1 - 6:.1f}" y="{y1 - 6:.1f}" width="12" height="12" fill="#10201d"/>',
         f'<path d="M{x0 - 6:.1f} {y0 - 7:.1f}l13 7l-13 7z" fill="{NEUTRAL_COLOUR}" stroke="none"/>',
-        told(x0, y0 + 20, words["start"]),
-        told(x1, y1 - 11, words["end"]),
+        label(x0, y0 + 20, words["start"]),
+        label(x1, y1 - 11, words["end"]),
     ]
 
 
-def told(x: float, y: float, text: str) -> str:
+def label(x: float, y: float, text: str) -> str:
     """A word beside a place, within the drawing."""
     anchor = "end" if x > WIDTH - 80 else "start"
     x += -10 if anchor == "end" else 10

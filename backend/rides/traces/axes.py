@@ -2,7 +2,7 @@
 
 None of the three ever falls, so rows that follow each other in time do so on every axis, and the
 least and greatest value between two places of an axis are those of the rows between. Time in motion
-stands while the speed is at most MOVING_KMH or unknown; the way is that of `insight.way`.
+stands while the speed is at most MOVING_KMH or unknown; distance is that of `insight.distance`.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from backend.core._generated import MOVING_KMH
 from backend.core.channels import ChannelSpec, Counts, Values
 from backend.core.ride import PAUSE_MIN_US, TimesUs
 from backend.errors import FieldError, InvalidRequest
-from backend.rides.insight.distance import way_of
+from backend.rides.insight.distance import row_distances
 
 Axis = Literal["time", "moving", "distance"]
 SPEED, ODOMETER = "speed_kmh", "distance_m"
@@ -40,7 +40,7 @@ class Rows(Protocol):
 
 
 @dataclass(frozen=True)
-class Along:
+class AxisPositions:
     """at: float64 (n,), seconds or metres at each row, never falling. edges: the rows at which a
     longer stretch begins or ends that tells no speed, in which the axis may stand."""
 
@@ -48,16 +48,16 @@ class Along:
     edges: npt.NDArray[np.int64]
 
 
-def along(ride: Rows, axis: Axis) -> Along | None:
+def axis_positions(ride: Rows, axis: Axis) -> AxisPositions | None:
     """Where each row of the whole ride stands on an axis; None where nothing tells it."""
     times = ride.times_us(0, ride.row_count)
     if axis == "time":
-        return Along(times / 1e6, np.empty(0, np.int64))
+        return AxisPositions(times / 1e6, np.empty(0, np.int64))
     columns = ride.values((SPEED, ODOMETER))
     at = places(columns, times / 1e6, ride.row_seconds(), axis)
     if at is None:
         return None
-    return Along(at, silent_edges(columns.get(SPEED, columns.get(ODOMETER, at)), times))
+    return AxisPositions(at, silent_edges(columns.get(SPEED, columns.get(ODOMETER, at)), times))
 
 
 def places(
@@ -68,8 +68,8 @@ def places(
     start_s, seconds: when each row begins and how long it holds.
     """
     if axis == "distance":
-        way = way_of(columns, start_s, seconds)
-        return way.at_m if way else None
+        distances = row_distances(columns, start_s, seconds)
+        return distances.at_m if distances else None
     speed = columns.get(SPEED)
     if speed is None or not np.isfinite(speed).any():
         return None
@@ -78,13 +78,13 @@ def places(
     return at
 
 
-def told_along(ride: Rows, axis: Axis) -> Along:
-    """As `along`; raises InvalidRequest (`no_axis`) where nothing tells it."""
-    found = along(ride, axis)
-    if found is None:
+def require_axis_positions(ride: Rows, axis: Axis) -> AxisPositions:
+    """As `axis_positions`; raises InvalidRequest (`no_axis`) where nothing tells it."""
+    positions = axis_positions(ride, axis)
+    if positions is None:
         message = f"This ride has no speed or way, so it cannot be drawn over {axis}."
         raise InvalidRequest(message, fields=[FieldError("axis", "no_axis", message)])
-    return found
+    return positions
 
 
 def silent_edges(source: Values, times: TimesUs) -> npt.NDArray[np.int64]:

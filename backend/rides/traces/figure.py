@@ -59,8 +59,8 @@ def figure(ride: RideReader, names: Sequence[str] | None, pixels: int, language:
 
     offered = {channel.name: channel for channel in ride.offered}
     panels = usual_panels(offered) if names is None else panels_by_unit(names, offered)
-    wanted = [name for panel in panels for name in panel.channels]
-    shown = trace(ride, names if names is not None else wanted, pixels=pixels)
+    requested = [name for panel in panels for name in panel.channels]
+    shown = trace(ride, names if names is not None else requested, pixels=pixels)
     rows = max(len(panels), 1)
     made = make_subplots(rows=rows, cols=1, shared_xaxes=True, vertical_spacing=0.06 / rows)
     for row, panel in enumerate(panels, start=1):
@@ -70,23 +70,23 @@ def figure(ride: RideReader, names: Sequence[str] | None, pixels: int, language:
         both = f"{title} ({panel.unit})" if title and panel.unit else ""
         made.update_yaxes(title_text=both or title or panel.unit, row=row, col=1)
     made.update_xaxes(title_text=TIME[language], row=rows, col=1)
-    told = SHOWN[language].format(shown=len(shown.t_first_s), rows=shown.rows)
+    note = SHOWN[language].format(shown=len(shown.t_first_s), rows=shown.rows)
     made.update_layout(
         template="none",
         hovermode="x unified",
         showlegend=True,
-        meta={"shown": told if shown.kind == "rows" else f"{told} (min/max)"},
+        meta={"shown": note if shown.kind == "rows" else f"{note} (min/max)"},
     )
     return made
 
 
 def usual_panels(offered: dict[str, ChannelSpec]) -> list[Panel]:
     """The usual rows, without what the ride does not have."""
-    kept = [
+    panels = [
         Panel(panel.title, panel.unit, tuple(n for n in panel.channels if n in offered))
         for panel in PANELS
     ]
-    return [panel for panel in kept if panel.channels]
+    return [panel for panel in panels if panel.channels]
 
 
 def panels_by_unit(names: Sequence[str], offered: dict[str, ChannelSpec]) -> list[Panel]:

@@ -7,7 +7,7 @@ How a window is cut:
   either end, and the bins' own times say so.
 - Irregular rows (head units): bins of equal time, cut at pauses; bins without rows are left out,
   and one missing bin stands in each pause, so that no line is ever drawn across it.
-- Over another axis than time (`traces.along`): bins of equal length of that axis, cut at
+- Over another axis than time (`traces.axis_positions`): bins of equal length of that axis, cut at
   pauses and where the axis' own channel falls silent, always from raw rows; a missing bin as above.
 In each case the minimum and maximum of a bin are exactly those of the rows from its first to its
 last time, both included.
@@ -47,7 +47,7 @@ from backend.core.channels import ChannelSpec, Counts, Values
 from backend.core.pyramid import Level, reduce_groups
 from backend.core.ride import pause_us
 from backend.errors import FieldError, InvalidRequest
-from backend.rides.traces.axes import Along, Axis, Rows, told_along
+from backend.rides.traces.axes import Axis, AxisPositions, Rows, require_axis_positions
 
 MAGIC = b"SPV1"
 # A screen has at most this many columns; more would only cost the browser memory.
@@ -282,12 +282,12 @@ def uneven_trace(
     axis: Axis,
 ) -> Trace:
     """Bins of equal length of an axis, cut at pauses, with a missing bin in each pause."""
-    way = told_along(ride, axis)
-    at = way.at[start:stop]
+    positions = require_axis_positions(ride, axis)
+    at = positions.at[start:stop]
     times = ride.times_us(start, stop)
-    whole = ride.times_us(0, ride.row_count)
-    paused = np.diff(times) > pause_us(whole, ride.period_us)
-    cut = cuts(way, start, stop)
+    all_times = ride.times_us(0, ride.row_count)
+    paused = np.diff(times) > pause_us(all_times, ride.period_us)
+    cut = cuts(positions, start, stop)
     if len(times) <= pixels:
         starts = np.arange(len(times))
     else:
@@ -303,10 +303,10 @@ def uneven_trace(
     return opened(bare, breaks) if len(breaks) else bare
 
 
-def cuts(way: Along, start: int, stop: int) -> npt.NDArray[np.bool_]:
+def cuts(positions: AxisPositions, start: int, stop: int) -> npt.NDArray[np.bool_]:
     """Before which of the rows [start + 1, stop) a bin ends because the axis' channel does."""
     cut = np.zeros(max(stop - start - 1, 0), np.bool_)
-    edges = way.edges[(way.edges > start) & (way.edges < stop)]
+    edges = positions.edges[(positions.edges > start) & (positions.edges < stop)]
     cut[edges - start - 1] = True
     return cut
 

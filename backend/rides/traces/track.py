@@ -30,8 +30,8 @@ RowNumbers = npt.NDArray[np.intp]
 
 @dataclass(frozen=True)
 class Track:
-    """Points in order of time, each array (n,); None for what the ride never tells, NaN for a
-    point without it. Metres and seconds in motion since the ride's start, as of `along`."""
+    """Points in order of time, each array (n,); None for what the ride did not record, NaN for a
+    point without it. Metres and seconds in motion since the ride's start: `axis_positions`."""
 
     t_s: Values
     moving_s: Values | None
@@ -54,16 +54,23 @@ def track(ride: Rows) -> Track:
     """The points of a whole ride: at most EVEN_POINTS + BENDS and two for each gap."""
     times_s = ride.times_us(0, ride.row_count) / 1e6
     columns = ride.values((LATITUDE, LONGITUDE, SPEED, ODOMETER))
-    known = positioned(columns)
+    positioned_rows = positioned(columns)
     rows = evenly(times_s)
     breaks = np.empty(0, np.int64)
-    if len(known):
-        bends = known[bending(columns[LATITUDE][known], columns[LONGITUDE][known])]
-        breaks = np.flatnonzero(np.diff(times_s[known]) * 1e6 > PAUSE_MIN_US)
-        ends = np.concatenate((known[breaks], known[np.minimum(breaks + 1, len(known) - 1)]))
+    if len(positioned_rows):
+        bends = positioned_rows[
+            bending(columns[LATITUDE][positioned_rows], columns[LONGITUDE][positioned_rows])
+        ]
+        breaks = np.flatnonzero(np.diff(times_s[positioned_rows]) * 1e6 > PAUSE_MIN_US)
+        ends = np.concatenate(
+            (
+                positioned_rows[breaks],
+                positioned_rows[np.minimum(breaks + 1, len(positioned_rows) - 1)],
+            )
+        )
         rows = np.unique(np.concatenate((rows, bends, ends)))
     # The point without a position stands right after the last one before the gap.
-    opened = np.searchsorted(rows, known[breaks]) + 1 if len(breaks) else breaks
+    opened = np.searchsorted(rows, positioned_rows[breaks]) + 1 if len(breaks) else breaks
 
     def at(values: Values) -> Values:
         chosen = values[rows]
@@ -71,31 +78,33 @@ def track(ride: Rows) -> Track:
         return np.insert(chosen, opened, between)
 
     def place(name: str) -> Values | None:
-        return np.insert(columns[name][rows], opened, np.nan) if len(known) else None
+        return np.insert(columns[name][rows], opened, np.nan) if len(positioned_rows) else None
 
     seconds = ride.row_seconds()
 
-    def way(axis: Axis) -> Values | None:
-        found = places(columns, times_s, seconds, axis)
-        return None if found is None else at(found)
+    def points_on(axis: Axis) -> Values | None:
+        values = places(columns, times_s, seconds, axis)
+        return None if values is None else at(values)
 
-    return Track(at(times_s), way("moving"), way("distance"), place(LATITUDE), place(LONGITUDE))
+    return Track(
+        at(times_s), points_on("moving"), points_on("distance"), place(LATITUDE), place(LONGITUDE)
+    )
 
 
 def positioned(columns: Mapping[str, Values]) -> RowNumbers:
     """Rows with a position."""
     if not {LATITUDE, LONGITUDE} <= columns.keys():
         return np.empty(0, np.intp)
-    there = np.isfinite(columns[LATITUDE]) & np.isfinite(columns[LONGITUDE])
-    return np.flatnonzero(there)
+    valid = np.isfinite(columns[LATITUDE]) & np.isfinite(columns[LONGITUDE])
+    return np.flatnonzero(valid)
 
 
 def evenly(times_s: Values) -> RowNumbers:
     """Rows that stand evenly in time, first and last among them."""
     if len(times_s) <= EVEN_POINTS:
         return np.arange(len(times_s))
-    wanted = np.linspace(times_s[0], times_s[-1], EVEN_POINTS)
-    return np.unique(np.searchsorted(times_s, wanted))
+    even_s = np.linspace(times_s[0], times_s[-1], EVEN_POINTS)
+    return np.unique(np.searchsorted(times_s, even_s))
 
 
 def bending(latitude_deg: Values, longitude_deg: Values) -> RowNumbers:
@@ -107,7 +116,7 @@ def bending(latitude_deg: Values, longitude_deg: Values) -> RowNumbers:
     chosen = {0, len(flat) - 1}
     waiting: list[tuple[float, int, int, int]] = []
 
-    def look(first: int, last: int) -> None:
+    def split(first: int, last: int) -> None:
         if last - first < 2:
             return
         away = distances(flat[first + 1 : last], flat[first], flat[last])
@@ -115,21 +124,21 @@ def bending(latitude_deg: Values, longitude_deg: Values) -> RowNumbers:
         if away[far] > least:
             heapq.heappush(waiting, (-float(away[far]), first, first + 1 + far, last))
 
-    look(0, len(flat) - 1)
+    split(0, len(flat) - 1)
     while waiting and len(chosen) < BENDS:
         _, first, bend, last = heapq.heappop(waiting)
         chosen.add(bend)
-        look(first, bend)
-        look(bend, last)
+        split(first, bend)
+        split(bend, last)
     return np.array(sorted(chosen))
 
 
 def distances(points: Values, begin: Values, end: Values) -> Values:
     """How far points (k, 2) are from the stretch between two others."""
-    way = end - begin
-    length = float(way @ way)
-    share = np.clip((points - begin) @ way / length, 0.0, 1.0) if length else np.zeros(len(points))
-    off: Values = points - begin - share[:, None] * way
+    line = end - begin
+    length = float(line @ line)
+    share = np.clip((points - begin) @ line / length, 0.0, 1.0) if length else np.zeros(len(points))
+    off: Values = points - begin - share[:, None] * line
     return np.hypot(off[:, 0], off[:, 1])
 
 

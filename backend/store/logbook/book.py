@@ -16,7 +16,7 @@ from backend.store.logbook.cards import note_words
 from backend.store.logbook.find import Sought, count_of, ids_of
 from backend.store.objects import Objects
 from backend.store.ride_table import tags_of
-from backend.store.sidecar import keep_words
+from backend.store.sidecar import save_words
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database
 
@@ -71,7 +71,7 @@ class Logbook:
         """
         gone = {tag.casefold() for tag in clean_tags(remove)}
 
-        def wanted(connection: Connection, some: Sequence[int]) -> dict[int, tuple[str, ...]]:
+        def tags_for(connection: Connection, some: Sequence[int]) -> dict[int, tuple[str, ...]]:
             here = select(t.ride.c.id).where(t.ride.c.id.in_(some))
             tags = tags_of(connection, some)
             return {
@@ -82,12 +82,12 @@ class Logbook:
             }
 
         def work(connection: Connection, some: Sequence[int]) -> None:
-            for ride_id, tags in wanted(connection, some).items():
+            for ride_id, tags in tags_for(connection, some).items():
                 set_tags(connection, ride_id, tags)
-                keep_words(connection, self._objects, ride_id, even_if_empty=True)
+                save_words(connection, self._objects, ride_id, even_if_empty=True)
 
-        found = self._database.read(lambda c: wanted(c, ride_ids))
-        if missing := [ride_id for ride_id in ride_ids if ride_id not in found]:
+        tagged = self._database.read(lambda c: tags_for(c, ride_ids))
+        if missing := [ride_id for ride_id in ride_ids if ride_id not in tagged]:
             raise NotFound(f"There is no ride {missing[0]}.")
         for start in range(0, len(ride_ids), RIDES_AT_ONCE):
             self._database.write(partial(work, some=ride_ids[start : start + RIDES_AT_ONCE]))

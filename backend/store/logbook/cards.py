@@ -6,7 +6,7 @@ from sqlalchemy import Connection, select, update
 
 from backend.core.ride import Ride, RidePlace
 from backend.core.ride_card import BEST_S, METHOD, RideCard
-from backend.store.logbook.derived import due_rides, keep_row
+from backend.store.logbook.derived import due_rides, save_row
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database
 
@@ -21,7 +21,7 @@ class CardStore:
         """Finished rides without a card of today's method and of their present rows."""
         return self._database.read(lambda c: due_rides(c, t.ride_card, METHOD, limit))
 
-    def keep(self, ride: Ride, card: RideCard, place: RidePlace) -> None:
+    def save(self, ride: Ride, card: RideCard, place: RidePlace) -> None:
         """Keep a ride's card, unless the ride is gone or another meanwhile. Raises StoreError."""
         bests = zip(BEST_S, card.power_w_best, strict=True)
         values = {
@@ -37,7 +37,7 @@ class CardStore:
         }
 
         def work(connection: Connection) -> None:
-            if keep_row(connection, t.ride_card, METHOD, ride, values):
+            if save_row(connection, t.ride_card, METHOD, ride, values):
                 note_words(connection, ride.id)
 
         self._database.write(work)

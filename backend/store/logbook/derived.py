@@ -30,7 +30,7 @@ def due_rides(connection: Connection, table: Table, method: int, limit: int) -> 
     return list(connection.execute(query).scalars())
 
 
-def keep_row(
+def save_row(
     connection: Connection, table: Table, method: int, ride: Ride, values: Mapping[str, object]
 ) -> bool:
     """Keep what was worked out; False where the ride is gone or another meanwhile."""

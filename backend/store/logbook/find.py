@@ -12,7 +12,7 @@ from sqlalchemy import Connection, Select, func, select
 
 from backend.core.ride import Ride
 from backend.errors import InvalidRequest
-from backend.store.ride_table import cursor_parts, rides_whole
+from backend.store.ride_table import cursor_parts, rides_by_ids
 from backend.store.sql import tables as t
 
 PAGE_MAX = 500
@@ -62,7 +62,7 @@ def page_of(connection: Connection, sought: Sought, limit: int, cursor: str | No
         )
     rows = connection.execute(query.limit(limit + 1)).all()
     last = rows[limit - 1] if len(rows) > limit else None
-    items = rides_whole(connection, [row.id for row in rows[:limit]])
+    items = rides_by_ids(connection, [row.id for row in rows[:limit]])
     return RidePage(items, None if last is None else f"{last.started_us}.{last.id}")
 
 

@@ -102,10 +102,10 @@ def totals_by(
     which = case(*((began < period.to_us, index) for index, period in enumerate(periods)))
     query = of_bike(select(which, *sums()), bike_id)
     inside = (began >= periods[0].from_us) & (began < periods[-1].to_us)
-    found = {
+    totals = {
         row[0]: Totals(*row[1:]) for row in connection.execute(query.where(inside).group_by(which))
     }
-    return tuple(found.get(index, Totals()) for index in range(len(periods)))
+    return tuple(totals.get(index, Totals()) for index in range(len(periods)))
 
 
 def bikes(connection: Connection) -> tuple[BikeTotals, ...]:
@@ -121,8 +121,8 @@ def bikes(connection: Connection) -> tuple[BikeTotals, ...]:
     query = of_bike(query, None).where(bike_id.is_not(None)).group_by(bike_id)
     rows = connection.execute(query).all()
     names = {row.id: row.name for row in connection.execute(select(t.bike.c.id, t.bike.c.name))}
-    found = [BikeTotals(row[0], names[row[0]], *row[1:]) for row in rows]
-    return tuple(sorted(found, key=lambda bike: -bike.last_us))
+    totals = [BikeTotals(row[0], names[row[0]], *row[1:]) for row in rows]
+    return tuple(sorted(totals, key=lambda bike: -bike.last_us))
 
 
 def records(connection: Connection, bike_id: int | None) -> tuple[Best, ...]:
@@ -135,12 +135,12 @@ def records(connection: Connection, bike_id: int | None) -> tuple[Best, ...]:
         ("ascent_m", card.ascent_m, None),
     ]
     kinds += [(f"power_w_best_{s}s", card[f"power_w_best_{s}s"], None) for s in BEST_S]
-    found = []
+    best = []
     for kind, column, also in kinds:
         row = best_by(connection, column, also, bike_id)
         if row is not None:
-            found.append(Best(kind, float(row[0]), row.id, row.started_us))
-    return tuple(found)
+            best.append(Best(kind, float(row[0]), row.id, row.started_us))
+    return tuple(best)
 
 
 def best_by(connection: Connection, column: Any, also: Any, bike_id: int | None) -> Row[Any] | None:
@@ -168,10 +168,10 @@ def last_faults(connection: Connection, bike_id: int | None) -> tuple[RideFault,
     )
     if bike_id is not None:
         query = query.where(t.ride.c.bike_id + 0 == bike_id)
-    found = [
+    faults = [
         RideFault(row.id, row.started_us + round(event["t_s"] * 1e6), event["value"])
         for row in connection.execute(query)
         for event in row.events
         if event["kind"] == FAULT_SET
     ]
-    return tuple(sorted(found, key=lambda fault: -fault.at_us)[:FAULTS_SHOWN])
+    return tuple(sorted(faults, key=lambda fault: -fault.at_us)[:FAULTS_SHOWN])

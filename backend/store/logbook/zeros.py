@@ -8,7 +8,7 @@ from sqlalchemy import Connection, select
 
 from backend.core.ride import Ride
 from backend.core.ride_zero import METHOD, RideZero, ZeroOfRide
-from backend.store.logbook.derived import due_rides, keep_row
+from backend.store.logbook.derived import due_rides, save_row
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database
 
@@ -25,9 +25,9 @@ class ZeroStore:
         """Finished rides without a zero by today's method and of their present rows."""
         return self._database.read(lambda c: due_rides(c, t.ride_zero, METHOD, limit))
 
-    def keep(self, ride: Ride, zero: RideZero) -> None:
+    def save(self, ride: Ride, zero: RideZero) -> None:
         """Keep a ride's zero, unless the ride is gone or another meanwhile. Raises StoreError."""
-        self._database.write(lambda c: keep_row(c, t.ride_zero, METHOD, ride, asdict(zero)))
+        self._database.write(lambda c: save_row(c, t.ride_zero, METHOD, ride, asdict(zero)))
 
     def of_unit(self, unit_key: str, limit: int) -> tuple[ZeroOfRide, ...]:
         """The newest rides of a unit with their zeros, newest first; those not yet made are not

@@ -26,7 +26,7 @@ LOG = logging.getLogger(__name__)
 # "SPIN" as a number; the second half of the key is the schema, which is a store of its own.
 ROOM = 0x5350494E
 TAKE = text("SELECT pg_try_advisory_lock(:room, hashtext(current_schema()))")
-LOOK_EVERY_S = 2.0
+CHECK_EVERY_S = 2.0
 # A server that vanished without a word is noticed by the system after some 20 s.
 KEEPALIVE = {"keepalives_idle": 10, "keepalives_interval": 5, "keepalives_count": 2}
 
@@ -34,14 +34,14 @@ KEEPALIVE = {"keepalives_idle": 10, "keepalives_interval": 5, "keepalives_count"
 class AdvisoryLock:
     """Holds a PostgreSQL database for this process until `release`.
 
-    look_every_s: how often the connection is looked at. Raises StoreError when another server has
+    check_every_s: how often the connection is checked. Raises StoreError when another server has
     the database, or when it cannot be reached.
     """
 
-    def __init__(self, url: str, look_every_s: float = LOOK_EVERY_S) -> None:
+    def __init__(self, url: str, check_every_s: float = CHECK_EVERY_S) -> None:
         self._shown = shown(url)
         self._engine = lock_engine(url)
-        self._look_every_s = look_every_s
+        self._check_every_s = check_every_s
         self._connection: Connection | None = None
         self._released = threading.Event()
         try:
@@ -65,7 +65,7 @@ class AdvisoryLock:
         self._drop()
         self._engine.dispose()
 
-    def look(self) -> None:
+    def check(self) -> None:
         """See whether the lock is still held; take it again if it is not, and say so."""
         try:
             if self._connection is not None:
@@ -85,8 +85,8 @@ class AdvisoryLock:
             self._drop()
 
     def _watch(self) -> None:
-        while not self._released.wait(self._look_every_s):
-            self.look()
+        while not self._released.wait(self._check_every_s):
+            self.check()
 
     def _take(self) -> bool:
         connection = self._engine.connect()

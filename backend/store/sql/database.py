@@ -129,7 +129,7 @@ class Database:
             self._writer.submit(truncate_log, self.engine).result()
         return False
 
-    def ask(self) -> None:
+    def ping(self) -> None:
         """Ask for nothing in particular. Raises StoreError when there is no answer."""
         self.read(lambda connection: connection.execute(text("SELECT 1")))
 
@@ -299,12 +299,12 @@ def migrate(engine: Engine, url: str) -> None:
 
     Raises StoreError for a schema of a newer version, and of one before 0.5.
     """
-    found = current_revision(engine)
-    if found == HEAD_REVISION:
+    revision = current_revision(engine)
+    if revision == HEAD_REVISION:
         return
-    if found not in OLDER_REVISIONS:
+    if revision not in OLDER_REVISIONS:
         raise StoreError(
-            f"The database {shown(url)} has schema {found}, which this Spindle does not know: a "
+            f"The database {shown(url)} has schema {revision}, which this Spindle does not know: a "
             "newer version wrote it, or one before 0.5. Nothing was changed. Open it with the "
             "version that wrote it, or bring its rides into a new database with `spindle store "
             "rebuild`."

@@ -19,8 +19,8 @@ def snapshot(source: Path, target: Path) -> None:
             old.backup(new)
             # One file: nothing is left beside it that would have to go with it.
             new.execute("PRAGMA journal_mode=DELETE")
-            found = new.execute("PRAGMA integrity_check").fetchone()[0]
+            verdict = new.execute("PRAGMA integrity_check").fetchone()[0]
     except sqlite3.Error as error:
         raise StoreError(f"The database could not be copied for a backup: {error}.") from error
-    if found != "ok":
-        raise StoreError(f"The database is damaged, so there is no backup of it: {found}")
+    if verdict != "ok":
+        raise StoreError(f"The database is damaged, so there is no backup of it: {verdict}")

@@ -70,10 +70,10 @@ def fits(value: object, column: Column[object]) -> bool:
         return bool(column.nullable) or column.primary_key
     if isinstance(column.type, JSON):
         return not isinstance(value, DamagedJson)
-    return isinstance(value, held(column.type)) and not isinstance(value, DamagedText)
+    return isinstance(value, stored_types(column.type)) and not isinstance(value, DamagedText)
 
 
-def held(kind: TypeEngine[object]) -> tuple[type, ...]:
+def stored_types(kind: TypeEngine[object]) -> tuple[type, ...]:
     """The Python types of a column's values; SQLite gives a whole number for 2.0."""
-    kept = kind.python_type
-    return (int, float) if kept is float else (kept,)
+    python_type = kind.python_type
+    return (int, float) if python_type is float else (python_type,)

@@ -59,14 +59,14 @@ def place_of(store: Store) -> StorePlace:
     url = url_of(store)
     path = sqlite_path(url)
     root = store.objects.root
-    beside = [path, path.with_name(f"{path.name}-wal")] if path else []
+    files = [path, path.with_name(f"{path.name}-wal")] if path else []
     keys = store.objects.keys()
     rides = select(func.count()).select_from(t.ride)
     return StorePlace(
         database=shown(url),
         folder=str(root),
         rides=int(store.database.read(lambda c: c.execute(rides).scalar_one())),
-        database_bytes=sum(map(size_of, beside)) if path else None,
+        database_bytes=sum(map(size_of, files)) if path else None,
         object_bytes=sum(size_of(root / key) for key in keys),
         free_bytes=shutil.disk_usage(root).free,
     )
@@ -91,9 +91,9 @@ def backup_of(store: Store, version: str) -> Iterator[bytes]:
     version: of this Spindle, for the list in it. Raises StoreError before the first piece, when the
     database cannot be copied; then there is no zip.
     """
-    pieces = written(store, version)
-    next(pieces)
-    return pieces
+    chunks = written(store, version)
+    next(chunks)
+    return chunks
 
 
 def written(store: Store, version: str) -> Iterator[bytes]:
@@ -112,7 +112,7 @@ def written(store: Store, version: str) -> Iterator[bytes]:
                 url = url_of(store) if path is None else f"sqlite:///{copy}"
                 keys = sorted(inspect_database(url).object_keys)
                 lacking = yield from added_objects(archive, pipe, store, keys)
-                told = {
+                contents = {
                     "format": 1,
                     "made_at": iso_utc(time.time_ns() // 1000),
                     "spindle": version,
@@ -120,7 +120,7 @@ def written(store: Store, version: str) -> Iterator[bytes]:
                     "objects": len(keys),
                     **lacking,
                 }
-                archive.writestr(MANIFEST, json.dumps(told, indent=1))
+                archive.writestr(MANIFEST, json.dumps(contents, indent=1))
             yield pipe.taken()
     finally:
         copy.unlink(missing_ok=True)
@@ -133,9 +133,9 @@ def added_objects(
     missing, damaged = [], []
     rides = [key for key in keys if key.endswith(RIDE_SUFFIX)]
     # A sidecar is there for most rides; without it a ride lacks only what a person wrote.
-    beside = [*map(sidecar_key, rides), *store.objects.table_keys()]
-    beside += store.objects.calibrating_keys()
-    for key in [IDENTITY, *keys, *beside]:
+    companions = [*map(sidecar_key, rides), *store.objects.table_keys()]
+    companions += store.objects.calibrating_keys()
+    for key in [IDENTITY, *keys, *companions]:
         try:
             file = store.objects.local_path(key)
         except StoreError:

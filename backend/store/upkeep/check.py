@@ -113,17 +113,17 @@ def check_store(db_url: str, objects_url: str) -> StoreCheck:
 
 def checked(db_url: str, objects: FileObjects) -> StoreCheck:
     """As `check_store`. Raises OSError where the system refuses a path."""
-    view = inspect_database(db_url, whole=True)
+    view = inspect_database(db_url, check_contents=True)
     try:
         folder_id = objects.identity()
     except StoreError:
         folder_id = None
     keys = set(objects.keys())
-    whole, size, damaged = 0, 0, []
+    sound, size, damaged = 0, 0, []
     for key in sorted(keys):
         reason = damage_of(objects, key)
         if reason is None:
-            whole += 1
+            sound += 1
             size += objects.local_path(key).stat().st_size
         else:
             damaged.append(Damage(key, reason))
@@ -133,12 +133,12 @@ def checked(db_url: str, objects: FileObjects) -> StoreCheck:
         folder=str(objects.root),
         folder_id=folder_id,
         reason=belonging(view, objects).reason,
-        whole=whole,
+        whole=sound,
         bytes=size,
         missing=tuple(sorted(view.object_keys - keys)),
         damaged=tuple(damaged),
         rides_damaged=damaged_rides(db_url) if view.state == OK else (),
-        unknown=tuple(sorted(keys - view.known_keys)),
+        unknown=tuple(sorted(keys - view.named_keys)),
         lost_found=tuple(objects.lost_keys()),
     )
 
@@ -151,10 +151,10 @@ def damaged_rides(db_url: str) -> tuple[int, ...]:
             return ()
         with engine.connect() as connection:
             ids = connection.execute(select(t.ride.c.id).order_by(t.ride.c.id)).scalars().all()
-            found: list[int] = []
+            damaged: list[int] = []
             for start in range(0, len(ids), ROWS_AT_ONCE):
-                found += damaged_rows(connection, ids[start : start + ROWS_AT_ONCE])
-            return tuple(found)
+                damaged += damaged_rows(connection, ids[start : start + ROWS_AT_ONCE])
+            return tuple(damaged)
     finally:
         engine.dispose()
 

@@ -52,7 +52,7 @@ class Looked:
 
     @property
     def fuzzy_table(self) -> dict[str, Any] | None:
-        """The table as the API tells it."""
+        """The table as in the API."""
         return None if self.table is None else self.table.to_json()
 
 
@@ -105,17 +105,19 @@ class Compare:
         Raises NotFound, Conflict for what no unit takes.
         """
         document = self._library.entry(entry_id).document
-        return self._felt({name: entry["value"] for name, entry in document["parameters"].items()})
+        return self._feel_of(
+            {name: entry["value"] for name, entry in document["parameters"].items()}
+        )
 
-    def _felt(self, values: Mapping[str, Any]) -> Feel:
+    def _feel_of(self, values: Mapping[str, Any]) -> Feel:
         key = json.dumps(values, sort_keys=True)
-        found = self._measured.get(key)
-        if found is None:
-            found = feel_of(values)
+        feel = self._measured.get(key)
+        if feel is None:
+            feel = feel_of(values)
             if len(self._measured) >= MEASURED_MAX:
                 self._measured.clear()
-            self._measured[key] = found
-        return found
+            self._measured[key] = feel
+        return feel
 
     def _looked(self, side: Side, where: str, feel: bool) -> Looked:
         name, kind, values = self._values(side, where)
@@ -123,16 +125,16 @@ class Compare:
         names = PARAMETERS_OF[which].values()
         has_table = all(parameter in values for parameter in names)
         table = FuzzyTable.from_parameters(values, which) if has_table else None
-        felt, not_felt = None, None
+        measured, not_felt = None, None
         if feel:
             # A table is ridden as the first one, whichever of a configuration's it is.
             is_first = kind == "configuration" and which == "first"
             ridden = values if is_first or table is None else table.to_parameters()
             try:
-                felt = self._felt(ridden)
+                measured = self._feel_of(ridden)
             except Conflict as error:
                 not_felt = error.message
-        return Looked(name, kind, values, table, felt, not_felt)
+        return Looked(name, kind, values, table, measured, not_felt)
 
     def _values(self, side: Side, where: str) -> tuple[str, str, dict[str, Any]]:
         """Name, kind and values of a side. Raises InvalidRequest unless it says just one thing."""

@@ -88,15 +88,15 @@ class LibraryStore:
         """
 
         def work(connection: Connection) -> LibraryVersion | None:
-            found = connection.execute(
+            row = connection.execute(
                 versions()
                 .where(t.library_version.c.item_id == item_id)
                 .order_by(t.library_version.c.seq.desc())
                 .limit(1)
             ).first()
-            if found is None:
+            if row is None:
                 return None
-            now = version_of(found)
+            now = version_of(row)
             check(now)
             if now.seq >= VERSIONS_MAX:
                 message = f"This item has changed {VERSIONS_MAX} times: save it as a new one."
@@ -106,8 +106,8 @@ class LibraryStore:
                 require_free(connection, name, item_id)
             mine = t.library_item.c.id == item_id
             connection.execute(update(t.library_item).where(mine).values(name=name))
-            kept = now.body if body is None else body
-            return append(connection, item_id, now.seq + 1, kept, author, deleted=body is None)
+            stored = now.body if body is None else body
+            return append(connection, item_id, now.seq + 1, stored, author, deleted=body is None)
 
         with self._turn:
             return self._database.write(work)

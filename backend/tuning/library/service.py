@@ -90,9 +90,9 @@ class Library:
 
     def rows(self, deleted: bool = False) -> list[LibraryRow]:
         """Every preset by name, then every own item by age; deleted ones only if asked for."""
-        found = [preset_row(name) for name in presets.names()]
+        all_rows = [preset_row(name) for name in presets.names()]
         own = [row_of(item) for item in self._items.newest()]
-        return found + [row for row in own if deleted or not row.deleted]
+        return all_rows + [row for row in own if deleted or not row.deleted]
 
     def entry(self, entry_id: str, version: int | None = None) -> LibraryEntry:
         """An entry as a file that `spindle device restore` takes, as it is or as it once was.
@@ -112,10 +112,10 @@ class Library:
 
     def versions(self, entry_id: str) -> list[LibraryRow]:
         """Every state an own item was in, newest first. Raises NotFound."""
-        found = [row_of(item) for item in self._versions(entry_id)]
-        if not found:
+        versions_found = [row_of(item) for item in self._versions(entry_id)]
+        if not versions_found:
             raise NotFound(f"The library has no own {entry_id!r}, only those have versions.")
-        return found
+        return versions_found
 
     def add(self, document: object, author: str) -> LibraryRow:
         """Keep a document as a new item. Raises InvalidRequest with every fault named, Conflict
@@ -155,10 +155,10 @@ class Library:
             if body is None and now.deleted:
                 raise NotFound(f"The library has no {entry_id!r}: it is deleted already.")
 
-        kept = self._items.change(item_id, check, author, body)
-        if kept is None:
+        stored = self._items.change(item_id, check, author, body)
+        if stored is None:
             raise NotFound(f"The library has no {entry_id!r}. GET /library lists what it has.")
-        return row_of(kept)
+        return row_of(stored)
 
     def _versions(self, entry_id: str) -> tuple[LibraryVersion, ...]:
         own = OWN.fullmatch(entry_id)

@@ -1,4 +1,4 @@
-"""What is proven of a configuration, as the API tells it."""
+"""What is proven of a configuration, as in the API."""
 
 from __future__ import annotations
 
@@ -33,10 +33,10 @@ class LimitProofRequest(RequestBody):
 
     def changes(self) -> dict[str, Any]:
         """What takes the place of a part of the configuration."""
-        told = self.model_dump(include=CHANGES)
+        changes_given = self.model_dump(include=CHANGES)
         if self.limits is not None:
-            told["limits"].pop("effective_assist_cutoff_kmh")
-        return told
+            changes_given["limits"].pop("effective_assist_cutoff_kmh")
+        return changes_given
 
 
 class Claim(Answer):

@@ -168,7 +168,7 @@ class TinyConversation:
         elif self.state is not LinkState.READY:
             self._running = (who_are_you(), self._connected, self._not_connected)
         elif self._started is not None and self._place() >= self._next_index:
-            self._running = (ask_values(), self._row, lambda error: None)
+            self._running = (read_values(), self._row, lambda error: None)
         else:
             return
         self._go_on(next)
@@ -275,7 +275,7 @@ def who_are_you() -> Operation[Identity]:
     return Identity(serial_number=None, model="Tiny", firmware_version=told[1])
 
 
-def ask_values() -> Operation[tuple[int, int]]:
+def read_values() -> Operation[tuple[int, int]]:
     """Counts of `CHANNELS`."""
     speed, cadence = (yield "V").split()
     return int(speed), int(cadence)

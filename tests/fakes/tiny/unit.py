@@ -15,7 +15,7 @@ from backend.device.driver import Driver, LinkOpener, Listener
 from backend.device.live_values import Snapshot, named_values
 from backend.device.unit import Unit
 from backend.errors import ConfigConflict, DeviceRefused, FieldError, NoAnswer, PeerProtocolError
-from tests.fakes.tiny.conversation import CHANNELS, TinyConversation, ask_values
+from tests.fakes.tiny.conversation import CHANNELS, TinyConversation, read_values
 from tests.fakes.tiny.motor import SETTINGS
 
 ANSWER_S = 5.0
@@ -139,7 +139,7 @@ class TinyUnit(Unit):
         return CHANNELS
 
     def values(self) -> Snapshot:
-        counts = self.run(ask_values(), ANSWER_S)
+        counts = self.run(read_values(), ANSWER_S)
         # It has no clock: the moment is ours.
         return Snapshot(time.monotonic_ns() // 1000, named_values(CHANNELS, counts))
 

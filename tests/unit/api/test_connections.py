@@ -23,7 +23,7 @@ PATIENCE_S = 20.0
 class Impatient(PatientProtocol):
     head_s = 0.3
     body_s = 0.3
-    look_every_s = 0.05
+    check_every_s = 0.05
     connections_max = 100
 
 

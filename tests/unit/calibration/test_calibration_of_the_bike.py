@@ -15,7 +15,7 @@ import pytest
 from GTC import set_correlation, type_a, type_b, ureal
 
 from backend.calibration.bike.balance import Balance, Climb, balance
-from backend.calibration.bike.coast_down import Known, Resistance, Run, resistance
+from backend.calibration.bike.coast_down import ClimbInputs, Resistance, Run, resistance
 from backend.calibration.bike.track import track_of
 from backend.calibration.bike.wheel import (
     Circumference,
@@ -29,7 +29,7 @@ from backend.errors import InvalidRequest
 from tests import counts
 from tests.unit.sim_device.test_wheel_speed import STEP_US, Wheel
 
-KNOWN = Known(mass_kg=100.0, mass_limit_kg=0.5, gravity_ms2=9.807, rise_limit_m=0.5)
+KNOWN = ClimbInputs(mass_kg=100.0, mass_limit_kg=0.5, gravity_ms2=9.807, rise_limit_m=0.5)
 ROLLING_N, AIR = 6.5, 0.24  # thesis_checks W1: 100 kg, 0.4 m2 at 1.2 kg/m3
 ROLLS_M = [4.148, 4.151, 4.145]
 STEP_S, SEEDS = 0.1, range(counts.of(200))

@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 
 from backend.calibration.bike.climb_check import ClimbCheck, Question, Slope, rise_by_heights
-from backend.calibration.bike.coast_down import Known
+from backend.calibration.bike.coast_down import ClimbInputs
 from backend.calibration.bike.service import CadenceCheck, PulseCount
 from backend.calibration.bike.types import Cadence, CertificateOfTorque
 from backend.calibration.bike.wheel_measure import TrackQuestion, WheelMeasure
@@ -48,7 +48,7 @@ LARGER = 1.02
 DEGREE_M = 111_132.0
 AT_S = np.arange(620.0)
 RIDING_MS = np.where((AT_S >= 10) & (AT_S <= 610), 6.0, 0.0)
-KNOWN = Known(mass_kg=100.0, mass_limit_kg=0.5, gravity_ms2=9.807, rise_limit_m=0.5)
+KNOWN = ClimbInputs(mass_kg=100.0, mass_limit_kg=0.5, gravity_ms2=9.807, rise_limit_m=0.5)
 
 
 @pytest.fixture
@@ -145,7 +145,7 @@ def test_what_a_ride_lacks_for_its_wheel_is_named(store: Store) -> None:
         with pytest.raises(InvalidRequest) as refused:
             measure(store, source).tracked(question, None)
         assert codes(refused) == [expected]
-    stated = TrackQuestion(Window(whole), told_m=KEPT_M)
+    stated = TrackQuestion(Window(whole), stored_m=KEPT_M)
     found = measure(store, "defaults").tracked(stated, None).measured
     assert found.circumference_m == pytest.approx(LARGER * KEPT_M, rel=1e-3)
 

@@ -12,7 +12,7 @@ from zoneinfo import ZoneInfo
 
 import pytest
 
-from backend.core.calendar import asked_zone, last_months, last_weeks, midnight_us
+from backend.core.calendar import last_months, last_weeks, midnight_us, require_zone
 from backend.errors import InvalidRequest
 
 HOUR_US = 3_600_000_000
@@ -74,7 +74,7 @@ def test_twelve_months_reach_over_new_year() -> None:
 @pytest.mark.parametrize("name", ["", "Moon/Crater", "../etc/passwd", "/etc/passwd", "a" * 300])
 def test_no_other_name_is_a_zone(name: str) -> None:
     with pytest.raises(InvalidRequest, match="IANA"):
-        asked_zone(name)
+        require_zone(name)
 
 
 def test_time_zones_come_with_spindle_where_the_system_has_none(
@@ -85,4 +85,4 @@ def test_time_zones_come_with_spindle_where_the_system_has_none(
     zoneinfo.reset_tzpath(to=())
     zoneinfo.ZoneInfo.clear_cache()
 
-    assert asked_zone("Asia/Kolkata").utcoffset(datetime(2026, 1, 1)) == timedelta(hours=5.5)
+    assert require_zone("Asia/Kolkata").utcoffset(datetime(2026, 1, 1)) == timedelta(hours=5.5)

@@ -18,7 +18,7 @@ import pytest
 
 from backend.device.driver import Driver
 from backend.device.ebl.operations.config_transaction import read_config
-from backend.device.ebl.session.operation import ask
+from backend.device.ebl.session.operation import query
 from backend.device.ebl.session.stream_receiver import StreamPlan
 from backend.device.link.opening import Opener
 from backend.device.link.ports import pyserial_ports
@@ -106,7 +106,7 @@ def test_asking_a_unit_that_is_not_there_gives_the_reason(
     driver.probed.wait(10.0)
 
     with pytest.raises(NoAnswer, match="no such port"):
-        driver.run(ask(CfgInfoRequest(), CfgInfoResponse), timeout_s=10.0)
+        driver.run(query(CfgInfoRequest(), CfgInfoResponse), timeout_s=10.0)
 
 
 @pytest.mark.slow

@@ -5,7 +5,7 @@ The operation is driven by hand; the unit's answers are written as its firmware 
 
 from __future__ import annotations
 
-from backend.device.ebl.faults import KNOWN, fault_names
+from backend.device.ebl.faults import NAME_OF_BIT, fault_names
 from backend.device.ebl.operations.fault_frames import fault_frames
 from backend.device.ebl.session.operation import Question
 from backend.device.faults import Fault
@@ -40,7 +40,7 @@ def listed(active: int) -> list[Fault]:
 
 
 def test_an_unknown_fault_is_named_by_its_bit() -> None:
-    assert NEWER_BIT not in KNOWN
+    assert NEWER_BIT not in NAME_OF_BIT
 
     assert fault_names(FaultFlags.TORQUE_SENSOR | 1 << NEWER_BIT) == ("torque_sensor", "fault_30")
 

@@ -12,7 +12,7 @@ import pytest
 from backend.device.configuration import ConfigImage
 from backend.device.ebl.operations.config_transaction import CommitUnanswered, read_config
 from backend.device.ebl.operations.config_transaction import write_config as write
-from backend.device.ebl.session.operation import ask
+from backend.device.ebl.session.operation import query
 from backend.device.ebl.session.session import Session
 from backend.device.ebl.session.stream_receiver import StreamPlan
 from backend.device.states import LinkState
@@ -142,9 +142,9 @@ def test_whatever_goes_on_beside_it_a_lost_answer_is_repeated_while_the_unit_kno
     there.to_host = Line(first_begin)
     begun: list[object] = []
     request = CfgBeginRequest(base.generation, base.crc32)
-    there.session.start(ask(request, CfgBeginResponse), begun.append, begun.append)
+    there.session.start(query(request, CfgBeginResponse), begun.append, begun.append)
     for _ in range(16):
-        there.session.start(ask(PingRequest(), PingResponse), lambda _: None, lambda _: None)
+        there.session.start(query(PingRequest(), PingResponse), lambda _: None, lambda _: None)
     there.run_until(lambda: bool(begun))
 
     assert isinstance(begun[0], CfgBeginResponse)
@@ -228,7 +228,7 @@ def test_damage_is_still_in_the_account_after_a_new_handshake() -> None:
 def test_a_transaction_left_open_is_told_with_the_time_it_has_left() -> None:
     there = bench().connect()
     base = there.ask(read_config())
-    there.ask(ask(CfgBeginRequest(base.generation, base.crc32), CfgBeginResponse))
+    there.ask(query(CfgBeginRequest(base.generation, base.crc32), CfgBeginResponse))
 
     with pytest.raises(DeviceRefused, match="ends by itself in 30 s") as caught:
         there.ask(write(base, CHANGE))

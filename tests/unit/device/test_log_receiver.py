@@ -39,7 +39,7 @@ def test_a_unit_that_sends_its_whole_log_but_the_first_piece_fills_one_window() 
 
     assert held(receiver) == WINDOW - 1
     assert receiver.frames_foreign == 10_000 - WINDOW
-    assert receiver.take_pieces() == []
+    assert receiver.take_segments() == []
 
 
 def test_the_missing_piece_makes_room_for_the_next_window() -> None:
@@ -52,7 +52,7 @@ def test_the_missing_piece_makes_room_for_the_next_window() -> None:
     receiver.take(piece(8), 0.0)
 
     assert receiver.received == 4 * CHUNK
-    assert b"".join(receiver.take_pieces()) == b"".join(piece(n).data for n in range(4))
+    assert b"".join(receiver.take_segments()) == b"".join(piece(n).data for n in range(4))
     assert held(receiver) == 1
 
 
@@ -85,6 +85,6 @@ def test_pieces_in_any_order_and_twice_over_are_the_log() -> None:
         drawn.shuffle(window)
         for number in window:
             receiver.take(piece(number), 0.0)
-        data += b"".join(receiver.take_pieces())
+        data += b"".join(receiver.take_segments())
 
     assert data == b"".join(piece(number).data for number in range(200))

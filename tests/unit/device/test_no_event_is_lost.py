@@ -69,27 +69,27 @@ def told(seq: int, again: bool = False) -> Event:
 def test_numbers_are_kept_over_a_new_greeting_and_forgotten_after_a_restart() -> None:
     deduplicator = EventDeduplicator(LinkStatistics())
     deduplicator.handshake_done(boot_id=7)
-    assert deduplicator.came(told(3)) is Arrival.IN_ORDER
+    assert deduplicator.classify(told(3)) is Arrival.IN_ORDER
 
     deduplicator.handshake_done(boot_id=7)
-    assert deduplicator.came(told(3, again=True)) is Arrival.AGAIN
-    deduplicator.came(Event(0, BootEvent.CODE, 0, BootEvent(8, 0)))
+    assert deduplicator.classify(told(3, again=True)) is Arrival.AGAIN
+    deduplicator.classify(Event(0, BootEvent.CODE, 0, BootEvent(8, 0)))
 
-    assert deduplicator.came(told(1)) is Arrival.IN_ORDER
-    assert deduplicator.came(told(3)) is Arrival.AFTER_A_GAP
+    assert deduplicator.classify(told(1)) is Arrival.IN_ORDER
+    assert deduplicator.classify(told(3)) is Arrival.AFTER_A_GAP
 
 
 def test_what_came_late_is_no_longer_lost() -> None:
     statistics = LinkStatistics()
     deduplicator = EventDeduplicator(statistics)
     deduplicator.handshake_done(boot_id=1)
-    deduplicator.came(told(65534))
+    deduplicator.classify(told(65534))
 
-    assert deduplicator.came(told(1)) is Arrival.AFTER_A_GAP
+    assert deduplicator.classify(told(1)) is Arrival.AFTER_A_GAP
     assert statistics.unit_events_lost == 2
-    assert deduplicator.came(told(65535, again=True)) is Arrival.LATE
-    assert deduplicator.came(told(0, again=True)) is Arrival.LATE
-    assert deduplicator.came(told(0, again=True)) is Arrival.AGAIN
+    assert deduplicator.classify(told(65535, again=True)) is Arrival.LATE
+    assert deduplicator.classify(told(0, again=True)) is Arrival.LATE
+    assert deduplicator.classify(told(0, again=True)) is Arrival.AGAIN
 
     assert (statistics.unit_events_lost, statistics.unit_events_again) == (0, 1)
 
@@ -100,7 +100,7 @@ def test_the_book_holds_no_more_than_it_needs() -> None:
 
     for _ in range(5000):
         seq = chance.randrange(1 << 16)
-        deduplicator.came(Event(seq, FaultClearedEvent.CODE, 0, FaultClearedEvent(1)))
+        deduplicator.classify(Event(seq, FaultClearedEvent.CODE, 0, FaultClearedEvent(1)))
 
-    assert len(deduplicator._seen) <= 64
+    assert len(deduplicator._recent_seqs) <= 64
     assert len(deduplicator._missing) <= 64

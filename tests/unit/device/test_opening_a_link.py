@@ -14,10 +14,10 @@ from hypothesis import strategies as st
 
 from backend.device.link import kind_of, list_ports, open_link, ports
 from backend.device.link.opening import Opener
+from backend.device.link.port_errors import cannot_open
 from backend.device.link.ports import pyserial_ports
 from backend.device.link.serial_port import SerialPort
 from backend.device.link.simulated import SimulatedAddress, SimulatedLink
-from backend.device.link.trouble import cannot_open
 from backend.errors import InvalidRequest, LinkError
 
 

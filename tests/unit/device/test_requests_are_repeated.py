@@ -9,7 +9,7 @@ from __future__ import annotations
 import pytest
 
 from backend.device.ebl.operations.config_transaction import read_config, write_config
-from backend.device.ebl.session.operation import Operation, Question, ask, ask_all
+from backend.device.ebl.session.operation import Operation, Question, query, query_all
 from backend.device.ebl.session.requests import RequestTable
 from backend.device.statistics import LinkStatistics
 from backend.errors import DeviceRefused, NoAnswer
@@ -63,7 +63,7 @@ def test_a_lost_request_is_repeated_too() -> None:
     bench = Bench(FakeUnit()).connect()
 
     bench.to_unit = Lossy(0, 1)
-    info = bench.ask(ask(CfgInfoRequest(), CfgInfoResponse))
+    info = bench.ask(query(CfgInfoRequest(), CfgInfoResponse))
 
     assert info.generation == 7
     assert bench.session.link_statistics().requests_repeated == 2
@@ -75,7 +75,7 @@ def test_after_four_sendings_there_is_no_answer_and_the_error_says_so() -> None:
 
     bench.to_unit = pieces
     with pytest.raises(NoAnswer, match="did not answer CfgInfo"):
-        bench.ask(ask(CfgInfoRequest(), CfgInfoResponse))
+        bench.ask(query(CfgInfoRequest(), CfgInfoResponse))
 
     assert pieces.seen == 4
 
@@ -86,7 +86,7 @@ def test_a_refusal_names_the_status_and_its_meaning() -> None:
     bench = Bench(unit).connect()
 
     with pytest.raises(DeviceRefused, match=r"UNKNOWN_MSG.*does not know this request") as caught:
-        bench.ask(ask(SimGetRequest(), SimGetResponse))
+        bench.ask(query(SimGetRequest(), SimGetResponse))
 
     assert caught.value.status == "UNKNOWN_MSG"
 
@@ -103,7 +103,7 @@ def test_no_more_requests_are_under_way_than_the_unit_takes() -> None:
         return data
 
     bench.to_unit = count
-    answers = bench.ask(ask_all([CfgInfoRequest()] * 10, CfgInfoResponse))
+    answers = bench.ask(query_all([CfgInfoRequest()] * 10, CfgInfoResponse))
 
     assert len(answers) == 10
     assert max(sent) == 4

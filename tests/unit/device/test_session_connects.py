@@ -16,7 +16,7 @@ from pathlib import Path
 
 import pytest
 
-from backend.device.ebl.session.operation import ask
+from backend.device.ebl.session.operation import query
 from backend.device.ebl.session.stream_receiver import StreamPlan
 from backend.device.states import LinkState
 from backend.errors import LinkError, NoAnswer
@@ -199,7 +199,7 @@ def test_a_vanished_port_is_lost_and_its_return_is_ready() -> None:
 def test_what_was_asked_when_the_port_vanished_gets_an_answer() -> None:
     bench = Bench(FakeUnit()).connect()
     errors: list[BaseException] = []
-    question = ask(CfgInfoRequest(), CfgInfoResponse)
+    question = query(CfgInfoRequest(), CfgInfoResponse)
 
     bench.session.start(question, lambda found: None, errors.append)
     bench.session.port_failed(bench.now_s, LinkError("ttyUSB0: the port vanished."))
@@ -211,7 +211,7 @@ def test_asking_while_not_connected_is_refused_with_the_reason() -> None:
     bench = Bench(FakeUnit())
 
     with pytest.raises(NoAnswer, match="being opened"):
-        bench.ask(ask(CfgInfoRequest(), CfgInfoResponse))
+        bench.ask(query(CfgInfoRequest(), CfgInfoResponse))
 
 
 def test_a_unit_of_another_major_version_is_refused_naming_both() -> None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import pytest
 
-from backend.device.ebl.session.operation import ask
+from backend.device.ebl.session.operation import query
 from backend.device.ebl.session.stream_receiver import StreamPlan
 from backend.device.states import LinkState
 from firmware_protocol._generated import (
@@ -35,10 +35,10 @@ def bits_per_second(bench: LineBench) -> int | None:
 def works(bench: LineBench, rate: int) -> None:
     """Both ends are at this rate, and a question is answered."""
     bench.run_until(lambda: bench.session.state is LinkState.READY)
-    alive = bench.ask(ask(AliveRequest(), AliveResponse))
+    alive = bench.ask(query(AliveRequest(), AliveResponse))
     assert (alive.bits_per_second, bench.unit_rate, bench.rates[-1]) == (rate, rate, rate)
     assert bits_per_second(bench) == rate
-    assert isinstance(bench.ask(ask(CfgInfoRequest(), CfgInfoResponse)), CfgInfoResponse)
+    assert isinstance(bench.ask(query(CfgInfoRequest(), CfgInfoResponse)), CfgInfoResponse)
 
 
 def test_without_a_wish_the_fastest_that_the_unit_offers_is_taken() -> None:
@@ -186,7 +186,7 @@ def test_a_port_that_cannot_run_so_fast_stays_slow() -> None:
     bench.connect()
 
     bench.run(1.0)
-    works_slow = bench.ask(ask(AliveRequest(), AliveResponse))
+    works_slow = bench.ask(query(AliveRequest(), AliveResponse))
     assert works_slow.bits_per_second == FIRST
     assert bench.rates == [FIRST] or set(bench.rates) == {FIRST}
 

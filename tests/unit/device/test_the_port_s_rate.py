@@ -20,7 +20,7 @@ def test_the_far_end_sees_the_rate_the_port_is_set_to(tmp_path: Path, rate: int)
     near = Opener(f"{tmp_path / 'port'}?baud={rate}").open()
     try:
         assert (near.bits_per_second, far.host_baud()) == (115200, 115200)
-        assert near.bits_per_second_wanted == rate
+        assert near.bits_per_second_requested == rate
 
         near.set_baudrate(rate)
 

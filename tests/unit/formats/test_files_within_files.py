@@ -205,8 +205,8 @@ def test_every_whole_file_comes_out_of_an_archive_that_was_cut_anywhere(
         entries, left = files_of(sound[:cut])
 
         assert {e.name: e.data for e in entries} == dict(list(files.items())[:whole])
-        assert left.trouble is not None
-        assert left.trouble.code == "truncated"
+        assert left.error is not None
+        assert left.error.code == "truncated"
 
 
 def test_a_cut_archive_within_gives_what_is_whole_in_it() -> None:

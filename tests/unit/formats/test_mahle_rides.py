@@ -94,7 +94,7 @@ def test_what_proves_no_unit_has_none_and_what_is_text_is_listed() -> None:
 
 
 def test_totals_are_what_the_app_stated_and_stand_beside_ours() -> None:
-    (statement,) = only_ride(FILE).noted.statements
+    (statement,) = only_ride(FILE).metadata.statements
 
     told = {figure.name: (figure.value, figure.unit) for figure in statement.figures}
     assert told["consumed_capacity"] == (5.5, "Wh")
@@ -105,7 +105,7 @@ def test_totals_are_what_the_app_stated_and_stand_beside_ours() -> None:
 
 
 def test_a_pause_is_from_the_point_that_tells_it_to_the_next() -> None:
-    (pause,) = only_ride(FILE).noted.pauses
+    (pause,) = only_ride(FILE).metadata.pauses
 
     at = len(RIDE["locations"]) // 2
     assert (pause.from_s, pause.to_s) == (EVERY_S * at, EVERY_S * (at + 1))

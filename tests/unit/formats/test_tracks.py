@@ -96,7 +96,7 @@ def test_every_cell_of_a_tcx_file_is_what_tcxreader_reads(tmp_path: Path) -> Non
 
 
 def test_between_segments_a_track_pauses_and_its_file_names_its_maker() -> None:
-    noted = only_ride(GPX).noted
+    noted = only_ride(GPX).metadata
 
     assert noted.pauses == (Pause(29.0, 40.0),)
     assert noted.instruments == (Instrument("recorder", product="Test 1"),)
@@ -105,11 +105,11 @@ def test_between_segments_a_track_pauses_and_its_file_names_its_maker() -> None:
 def test_laps_and_the_device_of_a_tcx_file_are_kept() -> None:
     ride = only_ride(TCX)
 
-    first, second = ride.noted.laps
+    first, second = ride.metadata.laps
     assert (first.from_s, first.to_s, first.trigger) == (0.0, 30.0, "manual")
     assert (first.timer_s, first.distance_m, first.calories_kcal) == (30.0, 153.75, 12.0)
     assert (second.from_s, second.to_s) == (30.0, 59.0)
-    assert ride.noted.instruments == (
+    assert ride.metadata.instruments == (
         Instrument(
             "recorder", product="Edge 530", serial_number="3900001", software_version="9.75"
         ),
@@ -132,7 +132,7 @@ def test_a_tcx_file_without_a_zone_is_asked_about_and_read_as_is_said() -> None:
 
     # Half past five earlier than the same clock in London.
     assert ride.started_us == (START_S - 19_800) * 1_000_000
-    assert [lap.from_s for lap in ride.noted.laps] == [0.0, 30.0]
+    assert [lap.from_s for lap in ride.metadata.laps] == [0.0, 30.0]
     assert ride.intake is not None
     assert ride.intake.taken_as == {"time_zone": "Asia/Kolkata"}
 

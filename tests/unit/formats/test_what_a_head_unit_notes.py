@@ -101,7 +101,7 @@ def theirs(file: bytes, message: str) -> list[dict[str, object]]:
 def test_laps_are_those_of_another_reader() -> None:
     file = a_ride_with_a_stop()
 
-    laps = only_ride(file).noted.laps
+    laps = only_ride(file).metadata.laps
 
     told = theirs(file, "lap")
     assert [lap.distance_m for lap in laps] == [lap["total_distance"] for lap in told]
@@ -115,9 +115,9 @@ def test_a_stop_of_the_timer_is_a_pause_and_a_gap_though_it_is_short() -> None:
     ride = only_ride(a_ride_with_a_stop())
     empty = np.zeros(len(ride.rows.times_us), dtype=bool)
 
-    (gap,) = find_gaps(ride.rows.times_us, empty, None, ride.noted.pauses)
+    (gap,) = find_gaps(ride.rows.times_us, empty, None, ride.metadata.pauses)
 
-    assert ride.noted.pauses == (Pause(40.0, 46.0, by_rider=True),)
+    assert ride.metadata.pauses == (Pause(40.0, 46.0, by_rider=True),)
     assert (gap.from_s, gap.to_s, gap.rows_lost) == (39.0, 46.0, None)
     assert find_gaps(ride.rows.times_us, empty, None) == ()
 
@@ -130,7 +130,7 @@ def test_a_pause_in_which_rows_were_written_is_no_gap() -> None:
 
 
 def test_devices_are_told_once_each_with_what_was_heard_of_them_last() -> None:
-    recorder, meter = only_ride(a_ride_with_a_stop()).noted.instruments
+    recorder, meter = only_ride(a_ride_with_a_stop()).metadata.instruments
 
     assert recorder == Instrument("recorder", "garmin", "Edge 530", "3900001")
     assert (meter.kind, meter.serial_number, meter.battery_status) == ("bike_power", "77", "low")
@@ -220,7 +220,7 @@ def test_what_a_session_states_is_what_fitdecode_reads_and_stands_beside_ours() 
 
     (ride,) = read_fit(file).rides
 
-    (statement,) = ride.noted.statements
+    (statement,) = ride.metadata.statements
     told = {figure.name: (figure.value, figure.unit) for figure in statement.figures}
     with fitdecode.FitReader(io.BytesIO(file)) as reader:
         (theirs,) = (
@@ -259,7 +259,7 @@ def test_what_a_session_states_is_what_fitdecode_reads_and_stands_beside_ours() 
 def test_a_session_without_times_is_of_the_records() -> None:
     (ride,) = read_fit(an_e_bikes_session(times=False)).rides
 
-    (statement,) = ride.noted.statements
+    (statement,) = ride.metadata.statements
     assert (statement.from_s, statement.to_s) == (0.0, 9.0)
 
 

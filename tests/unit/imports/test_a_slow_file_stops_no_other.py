@@ -221,9 +221,9 @@ def test_housekeeping_does_not_wait_for_the_files_it_has_looked_at(store: Store)
     store.uploads.conclude(upload_id, Verdict("queued", WAITS))
     uploads = Uploads(store, reader=reader)
 
-    (looking,) = uploads.look_again()
+    (looking,) = uploads.retry_waiting()
     assert reader.begun.acquire(timeout=30)
-    (again,) = uploads.look_again()
+    (again,) = uploads.retry_waiting()
     waits = not looking.done()
     reader.let_go.set()
 

@@ -32,8 +32,8 @@ def table(day: int) -> bytes:
     return f"timestamp,speed,cadence\n{rows}".encode()
 
 
-def reader(path: Path, name: str, *, said: TableAnswer | None = None) -> Outcome:
-    return read_file(name, path.read_bytes(), said)
+def reader(path: Path, name: str, *, table_answer: TableAnswer | None = None) -> Outcome:
+    return read_file(name, path.read_bytes(), table_answer)
 
 
 @pytest.fixture
@@ -79,11 +79,11 @@ def test_an_answer_reads_every_file_that_waited_for_it_and_those_that_come(
 def test_an_answer_waits_for_no_other_file_and_leaves_other_tables_alone(store: Store) -> None:
     read: list[str] = []
 
-    def read_and_note(path: Path, name: str, *, said: TableAnswer | None = None) -> Outcome:
+    def read_and_note(path: Path, name: str, *, table_answer: TableAnswer | None = None) -> Outcome:
         read.append(name)
         if name == "broken.csv" and read.count(name) > 1:
             raise OSError("a disk that is gone")
-        return reader(path, name, said=said)
+        return reader(path, name, table_answer=table_answer)
 
     uploads = Uploads(store, reader=read_and_note)
     other = uploads.receive_file("other.csv", table(1).replace(b"cadence", b"power"))
@@ -109,7 +109,7 @@ def test_an_answer_that_lacks_something_changes_nothing(
             mapping.say(upload.id, wrong)
         assert refused.value.fields
     assert uploads.get(upload.id).code == "needs_mapping"
-    assert mapping.known() == {"items": []}
+    assert mapping.answered_tables() == {"items": []}
 
 
 def test_only_a_file_that_is_asked_about_can_be_answered(
@@ -127,7 +127,7 @@ def test_what_was_said_can_be_forgotten_and_is_asked_again(
     uploads: Uploads, mapping: TableMapping
 ) -> None:
     mapping.say(uploads.receive_file("1.csv", table(1)).id, SAID)
-    (known,) = mapping.known()["items"]  # type: ignore[misc]
+    (known,) = mapping.answered_tables()["items"]  # type: ignore[misc]
     assert known["columns"] == ("timestamp", "speed", "cadence")
 
     mapping.forget(known["header_sha256"])

@@ -190,7 +190,7 @@ def test_a_battery_that_was_not_measured_has_no_estimate(store: Store) -> None:
 
 def test_what_is_told_of_bike_and_rider_narrows_the_band(store: Store) -> None:
     def width(told: RiderAndBike) -> float:
-        answer = again(store, sport(), assist_modes=modes_with_ratio(0.4), told=told)
+        answer = again(store, sport(), assist_modes=modes_with_ratio(0.4), rider_and_bike=told)
         figure = answer["duration_s"]
         return float(figure["high"] - figure["low"])
 

@@ -258,7 +258,7 @@ def test_the_server_s_health_names_a_damaged_ride_without_being_asked_for_it(
     item.write_bytes(b"")
 
     with open_services(settings) as services:
-        health = eventually(services.health.look, lambda health: health.reasons)
+        health = eventually(services.health.current, lambda health: health.reasons)
 
     assert [(reason.code, reason.part) for reason in health.reasons] == [
         ("rides_damaged", "objects")
@@ -280,7 +280,7 @@ def test_the_server_s_health_names_a_ride_whose_row_cannot_be_mended(tmp_path: P
 
     with open_services(settings) as services:
         (ride,) = services.rides.list()["items"]
-        health = eventually(services.health.look, lambda health: len(health.reasons) == 2)
+        health = eventually(services.health.current, lambda health: len(health.reasons) == 2)
 
     assert (ride["id"], ride["state"], ride["damage"]) == (ride_id, "bad", "row")
     of_file, of_row = health.reasons

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from backend.rides.insight.charge import charge_of
-from backend.rides.insight.distance import climb_of, climbed, gradient_pct, way_of
+from backend.rides.insight.distance import climb_of, climbed, gradient_pct, row_distances
 from backend.rides.insight.energy_split import by_gradient, energy_shares
 
 STEP_S, SPEED_KMH = 1.0, 18.0
@@ -27,7 +27,7 @@ def road(*parts: tuple[float, float]) -> tuple[np.ndarray, np.ndarray, np.ndarra
 def test_a_slope_is_found_under_a_barometers_noise() -> None:
     start_s, seconds, height = road((1000, 0.0), (1000, 5.0), (1000, -3.0))
     noisy = height + np.random.default_rng(1).normal(0.0, 0.3, len(height))
-    way = way_of({"speed_kmh": np.full(len(height), SPEED_KMH)}, start_s, seconds)
+    way = row_distances({"speed_kmh": np.full(len(height), SPEED_KMH)}, start_s, seconds)
     assert way is not None
 
     found = gradient_pct(noisy, way, start_s)
@@ -43,7 +43,7 @@ def test_no_gradient_reaches_over_a_gap_or_a_jump_of_the_height() -> None:
     start_s = np.concatenate((np.arange(100.0), np.arange(400.0, 500.0)))
     height = np.where(start_s < 300.0, 0.0, 200.0)
     odometer = np.concatenate((np.arange(100) * 5.0, 500.0 + 1500.0 + np.arange(100) * 5.0))
-    way = way_of({"distance_m": odometer}, start_s, np.ones(200))
+    way = row_distances({"distance_m": odometer}, start_s, np.ones(200))
     assert way is not None
 
     assert np.nanmax(np.abs(gradient_pct(height, way, start_s))) == pytest.approx(0.0, abs=1e-9)
@@ -56,12 +56,12 @@ def test_no_gradient_reaches_over_a_gap_or_a_jump_of_the_height() -> None:
 
 def test_a_way_without_heights_or_too_short_has_no_gradient() -> None:
     start_s, seconds, height = road((40, 5.0))
-    way = way_of({"speed_kmh": np.full(len(height), SPEED_KMH)}, start_s, seconds)
+    way = row_distances({"speed_kmh": np.full(len(height), SPEED_KMH)}, start_s, seconds)
     assert way is not None
 
     assert not np.isfinite(gradient_pct(height, way, start_s)).any()
     assert climb_of(np.full(len(height), np.nan), way, start_s) is None
-    assert way_of({}, start_s, seconds) is None
+    assert row_distances({}, start_s, seconds) is None
 
 
 @pytest.mark.parametrize(
@@ -87,7 +87,7 @@ def test_each_band_has_its_own_energy_and_nothing_is_added_up() -> None:
         "battery_power_w": np.where(uphill, 360.0, 60.0),
     }
     columns["motor_power_w"][:10] = np.nan
-    way = way_of(columns, start_s, seconds)
+    way = row_distances(columns, start_s, seconds)
     assert way is not None
 
     gradient = np.where(uphill, 5.0, 0.0)

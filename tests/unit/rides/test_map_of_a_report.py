@@ -15,9 +15,9 @@ from backend.rides.report.track_map import (
     LOOKS,
     UNKNOWN,
     laid_out,
-    pieces_of,
     rounded_down,
     rounded_up,
+    segments_of,
     track_map,
 )
 from backend.rides.report.words import EN, ZH
@@ -74,7 +74,7 @@ def test_modes_are_told_by_dash_and_width_and_change_where_they_changed() -> Non
     assert drawn is not None
     events = (RideEvent(25.5, "assist_mode", 3), RideEvent(75.0, "assist_mode", 1))
 
-    pieces = pieces_of(drawn, [(25.5, 3), (75.0, 1)])
+    pieces = segments_of(drawn, [(25.5, 3), (75.0, 1)])
 
     assert [mode for mode, _ in pieces] == [None, 3, 1]
     share = (drawn.y[0] - pieces[0][1][-1][1]) / (drawn.y[0] - drawn.y[-1])
@@ -96,7 +96,7 @@ def test_no_line_is_drawn_over_a_gap() -> None:
     assert drawn is not None
 
     # Also not where the mode changed within it.
-    pieces = pieces_of(drawn, [(50.0, 2)])
+    pieces = segments_of(drawn, [(50.0, 2)])
 
     assert [(mode, len(spots)) for mode, spots in pieces] == [(None, 40), (2, 41)]
     assert drawn.at(50.0) is None

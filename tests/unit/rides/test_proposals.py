@@ -27,7 +27,7 @@ from backend.rides.replay.propose import RUNNING, Candidate, Job, Proposals, cod
 from backend.rides.replay.ride_again import RideAgain
 from backend.services import Services
 from backend.store import Store, open_store
-from backend.tuning.limit_proof import StoredLimitProofs
+from backend.tuning.limit_proof import LimitProofMaker
 from backend.tuning.records import LimitProofStore
 from backend.web.app import WebSettings
 from firmware_protocol._generated import PARAMETER_BY_NAME
@@ -122,8 +122,10 @@ def ride_id(store: Store) -> int:
 def proposals(store: Store, request: pytest.FixtureRequest) -> Iterator[Proposals]:
     """A search as long as ever where the test is marked so, else one of 60 rides."""
     generations = GENERATIONS if request.node.get_closest_marker("long") else 2
-    proofs = StoredLimitProofs(LimitProofStore(store.database), "1.0.0")
-    made = Proposals(store, lambda ride, t_s=0: (law_defaults(), "defaults"), proofs, generations)
+    proofs = LimitProofMaker(LimitProofStore(store.database), "1.0.0")
+    made = Proposals(
+        store, lambda ride, t_s=0: (law_defaults(), "defaults"), proofs, generations
+    )
     yield made
     made.close()
 

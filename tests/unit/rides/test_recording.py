@@ -417,12 +417,12 @@ def test_health_names_unit_and_cause_of_rows_that_never_came(
     store: Store, recorder: Recorder
 ) -> None:
     none = cast(Devices, SimpleNamespace(list=list))
-    parts = store.watch, store.database.ask, store.soundness, store.entries
+    parts = store.watch, store.database.ping, store.soundness, store.entries
     health = HealthCheck("1.0", none, recorder, *parts)
     rows = blocks(riding(30))
     feed(recorder, *rows[:100], replace(rows[150], lost_by=LostBy.MACHINE))
 
-    view = health.look()
+    view = health.current()
 
     (reason,) = view.reasons
     assert (view.status, reason.code, reason.part) == ("ok", "rows_missing_machine", "u1")

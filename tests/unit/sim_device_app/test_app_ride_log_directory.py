@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from sim_device.firmware.python._native import ffi, lib
 
-from backend.formats.blocks import block_at, put_block
+from backend.formats.blocks import block_at, encode_block
 from tests.fakes.bench_logs import directory, fetch, logs, ride, unit_with_log
 
 BLOCK_BYTES = 1024
@@ -23,7 +23,7 @@ def test_a_second_beginning_of_a_log_is_no_log() -> None:
     first = block_at(data, 0)
     assert first is not None
     flash = np.frombuffer(ffi.buffer(lib.bench_log(unit.board), LOG_BYTES), dtype=np.uint8)
-    page = put_block(replace(first, boot_id=first.boot_id + 1))
+    page = encode_block(replace(first, boot_id=first.boot_id + 1))
     at = FREE_BLOCK * BLOCK_BYTES
     flash[at : at + len(page)] = np.frombuffer(page, dtype=np.uint8)
 

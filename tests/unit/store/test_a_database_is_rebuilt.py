@@ -80,7 +80,7 @@ def add_imported(store: Store, number: int) -> Ride:
     data = f"file {number}".encode()
     upload = store.uploads.create(f"evening {number}.fit", len(data), None, 3600)
     store.uploads.append(upload.id, 0, data)
-    store.uploads.keep_original(upload.id)
+    store.uploads.store_original(upload.id)
     times_us = np.cumsum(np.where(np.arange(ROWS) == 200, 900_000_000, 1_000_000)).astype(np.int64)
     counts = {
         "speed_kmh": np.full(ROWS, number + 100, np.int16),
@@ -112,7 +112,7 @@ def fill_some(store: Store, ride: Ride, number: int) -> None:
     data = f"log {number}".encode()
     upload = store.uploads.create(f"log {number}", len(data), None, 3600)
     store.uploads.append(upload.id, 0, data)
-    store.uploads.keep_original(upload.id)
+    store.uploads.store_original(upload.id)
     filling = Filling(
         rows_before=10,
         rows_after=0,
@@ -220,17 +220,17 @@ def test_a_rebuild_that_was_interrupted_keeps_the_server_away_and_goes_on(
     before = all_rides(folder)
     (folder / "spindle.db").unlink()
     left = 40
-    add_kept = rebuild.add_kept
+    add_stored = rebuild.add_stored
 
     def torn(*arguments: Any) -> tuple[str, ...]:
         nonlocal left
         left -= 1
         if left == 0:
             raise KeyboardInterrupt
-        return add_kept(*arguments)
+        return add_stored(*arguments)
 
     with monkeypatch.context() as cut:
-        cut.setattr(rebuild, "add_kept", torn)
+        cut.setattr(rebuild, "add_stored", torn)
         with pytest.raises(KeyboardInterrupt):
             rebuild_store(*urls(folder))
     with pytest.raises(StoreError, match="spindle store rebuild"):
@@ -307,7 +307,7 @@ def test_an_original_that_no_ride_names_is_listed(tmp_path: Path) -> None:
         ride = add_imported(store, 1)
         upload = store.uploads.create("spam.bin", 4, None, 3600)
         store.uploads.append(upload.id, 0, b"spam")
-        kept = store.uploads.keep_original(upload.id)
+        kept = store.uploads.store_original(upload.id)
         assert ride.upload_id is not None
         named = store.uploads.get(ride.upload_id).object_key
     (tmp_path / "spindle.db").unlink()

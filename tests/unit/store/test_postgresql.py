@@ -53,7 +53,7 @@ def url(cluster: Postgres) -> str:
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
-    monkeypatch.setattr(advisory, "LOOK_EVERY_S", NEVER_S)
+    monkeypatch.setattr(advisory, "CHECK_EVERY_S", NEVER_S)
     return (tmp_path / "objects").as_uri()
 
 
@@ -186,8 +186,8 @@ def test_a_lost_lock_is_taken_again_and_the_recording_goes_on(
     lose_lock_connection(cluster, url)
 
     with caplog.at_level(logging.WARNING):
-        lock.look()
-        lock.look()
+        lock.check()
+        lock.check()
 
     with pytest.raises(StoreError, match="Another Spindle is using"):
         AdvisoryLock(url, NEVER_S)

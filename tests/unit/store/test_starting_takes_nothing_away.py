@@ -45,7 +45,7 @@ def add_ride(store: Store, rows: int = 300, seed: int = 1) -> int:
 def add_original(store: Store, data: bytes = b"a log as it came") -> None:
     upload = store.uploads.create("log.fit", len(data), None, 3600)
     store.uploads.append(upload.id, 0, data)
-    store.uploads.keep_original(upload.id)
+    store.uploads.store_original(upload.id)
 
 
 def files(folder: Path) -> Files:

@@ -19,14 +19,14 @@ from backend.services import Services
 from backend.store import Store, open_store
 from backend.tuning.library.records import LibraryStore
 from backend.tuning.library.service import Library
-from backend.tuning.limit_proof import ProveLimits, ProvenRevisions, StoredLimitProofs
+from backend.tuning.limit_proof import LimitProofMaker, ProvenRevisions, ProveLimits
 from backend.tuning.records import LimitProofStore, RevisionStore
 from backend.tuning.service import Tuning
 from backend.units.service import Devices
 from backend.web.app import WebSettings
 from firmware_protocol.parameters import default_config
 
-PATH = "/api/v1/certificates"
+PATH = "/api/v1/proofs"
 FIRMWARE = "0.3.0"
 
 
@@ -39,7 +39,7 @@ def store(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Store]:
 
 @pytest.fixture(scope="module")
 def client(store: Store) -> TestClient:
-    kept = StoredLimitProofs(LimitProofStore(store.database), FIRMWARE)
+    kept = LimitProofMaker(LimitProofStore(store.database), FIRMWARE)
     library = Library(LibraryStore(store.database))
     prove_limits = ProveLimits(kept, cast(Devices, None), cast(Tuning, None), library)
     services = cast(Services, SimpleNamespace(prove_limits=prove_limits))
@@ -98,7 +98,7 @@ def test_what_no_unit_takes_is_refused_with_its_reason(
 
 def test_each_revision_is_kept_with_its_limit_proof(store: Store, client: TestClient) -> None:
     config = {**default_config(), "market": "china"}
-    kept = StoredLimitProofs(LimitProofStore(store.database), FIRMWARE)
+    kept = LimitProofMaker(LimitProofStore(store.database), FIRMWARE)
     log = ProvenRevisions(RevisionStore(store.database), kept)
 
     revision = log.append("ebl:test", config, reason="first")

@@ -24,7 +24,7 @@ from backend.errors import (
     PeerProtocolError,
     StoreError,
 )
-from backend.tuning.revisions import GIVEN_UP_REASON
+from backend.tuning.revisions import ROLLED_BACK_REASON
 from backend.tuning.service import Tuning
 from backend.tuning.types import etag
 from backend.units.service import Devices
@@ -495,6 +495,6 @@ def test_a_trial_that_is_over_is_noted_at_once_and_only_once(bench: Bench) -> No
     bench.tuning.note_trial_end(bench.id)
 
     newest, *older = bench.tuning.revisions(bench.id)
-    assert newest.reason == GIVEN_UP_REASON
+    assert newest.reason == ROLLED_BACK_REASON
     assert newest.generation == 7
     assert len(older) == 2

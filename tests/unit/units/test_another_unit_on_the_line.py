@@ -69,8 +69,8 @@ def bench() -> Iterator[Bench]:
 
 
 def test_a_change_made_for_a_is_refused_at_b_and_waits_for_a(bench: Bench) -> None:
-    seen = bench.tuning.read_config(bench.id)
-    tag = etag(seen.unit_key, seen.generation, seen.crc32)
+    note_unit = bench.tuning.read_config(bench.id)
+    tag = etag(note_unit.unit_key, note_unit.generation, note_unit.crc32)
     bench.plug(bench.b)
 
     with pytest.raises(OtherUnit, match=bench.key(bench.b)):

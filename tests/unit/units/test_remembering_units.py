@@ -15,8 +15,8 @@ import pytest
 from backend.core.revision import Revision, RevisionLog
 from backend.device.configuration import ConfigImage
 from backend.device.states import UnitEvent
-from backend.store import SeenUnit
-from backend.tuning.revisions import GIVEN_UP_REASON, RevisionBook
+from backend.store import UnitSighting
+from backend.tuning.revisions import ROLLED_BACK_REASON, RevisionBook
 from backend.tuning.service import Tuning
 from backend.units.memory import UnitMemory
 from backend.units.records import UnitStore
@@ -31,9 +31,9 @@ class Units:
     """Those that were noted, in order."""
 
     def __init__(self) -> None:
-        self.noted: list[SeenUnit] = []
+        self.noted: list[UnitSighting] = []
 
-    def seen(self, unit: SeenUnit) -> None:
+    def note_unit(self, unit: UnitSighting) -> None:
         self.noted.append(unit)
 
 
@@ -73,7 +73,7 @@ def test_a_trial_that_ran_out_is_in_the_log_at_once_with_its_reason(bench: Bench
     bench.unit.give_up_trial()
 
     newest = eventually(
-        lambda: bench.revisions.kept[KEY][-1], lambda row: row.reason == GIVEN_UP_REASON
+        lambda: bench.revisions.kept[KEY][-1], lambda row: row.reason == ROLLED_BACK_REASON
     )
     assert (newest.generation, newest.parameters["pedal_stop_ms"]) == (7, 150)
 
@@ -113,7 +113,7 @@ def test_a_unit_that_gave_a_trial_up_by_restarting_says_so(bench: Bench) -> None
     assert stamp is not None
     assert (stamp.rollback_cause, stamp.remaining_s) == ("restart", None)
     newest = eventually(lambda: bench.revisions.kept[KEY][-1], lambda row: row.generation == 7)
-    assert newest.reason == GIVEN_UP_REASON
+    assert newest.reason == ROLLED_BACK_REASON
 
 
 def test_what_was_noted_since_one_looked_is_not_noted_again() -> None:

@@ -17,7 +17,7 @@ import backend.store
 from backend.core.ride import Ride, RideContext
 from backend.core.unit_key import bike_name, ebl_key, tells_unit, unit_key
 from backend.rebuild import rebuild_store
-from backend.store import SeenUnit, Sought, Store, open_store
+from backend.store import Sought, Store, UnitSighting, open_store
 from backend.store.sql import tables as t
 from backend.units.records import UnitStore
 from tests.unit.conftest import OpenStore
@@ -68,13 +68,13 @@ def test_a_bike_is_called_what_its_owner_calls_the_unit_else_model_and_number() 
 def test_a_unit_that_is_seen_is_on_a_bike_of_its_own_and_stays_on_it(reopen: OpenStore) -> None:
     store = reopen()
     units = UnitStore(store.database)
-    units.seen(SeenUnit("ebl:SP-1", "SP-1", None, "mid drive", "1.2.0"))
-    units.seen(SeenUnit("ebl:SP-2", "SP-2", "Tandem", "mid drive", "1.2.0"))
+    units.note_unit(UnitSighting("ebl:SP-1", "SP-1", None, "mid drive", "1.2.0"))
+    units.note_unit(UnitSighting("ebl:SP-2", "SP-2", "Tandem", "mid drive", "1.2.0"))
     first, second = (
         units.bike_of("ebl:SP-1"),
         units.bike_of("ebl:SP-2"),
     )
-    units.seen(SeenUnit("ebl:SP-1", "SP-1", "Commuter", "mid drive", "1.3.0"))
+    units.note_unit(UnitSighting("ebl:SP-1", "SP-1", "Commuter", "mid drive", "1.3.0"))
     store.close()
 
     again = reopen()
@@ -91,7 +91,7 @@ def test_a_unit_that_is_seen_is_on_a_bike_of_its_own_and_stays_on_it(reopen: Ope
 
 def test_a_unit_that_only_its_url_is_known_of_is_on_no_bike(store: Store) -> None:
     key = "bafang:url:/dev/ttyUSB0"
-    UnitStore(store.database).seen(SeenUnit(key, model="hub motor"))
+    UnitStore(store.database).note_unit(UnitSighting(key, model="hub motor"))
 
     ride = ridden(store, RideContext("dev-ttyusb0", unit_key=key))
 
@@ -101,7 +101,7 @@ def test_a_unit_that_only_its_url_is_known_of_is_on_no_bike(store: Store) -> Non
 
 
 def test_a_ride_is_of_the_bike_its_unit_is_on_and_found_by_key_and_by_number(store: Store) -> None:
-    UnitStore(store.database).seen(SeenUnit("ebl:SP-1", "SP-1"))
+    UnitStore(store.database).note_unit(UnitSighting("ebl:SP-1", "SP-1"))
     ride = ridden(store, replace(MINE, device_id="socket-shed-1"))
     ridden(store, replace(MINE, unit_key="ebl:SP-2", device_serial="SP-2"))
 

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from backend.errors import NoAnswer, NotFound
-from backend.store import SeenUnit, Store, open_store
+from backend.store import Store, UnitSighting, open_store
 from backend.tuning.records import RevisionStore
 from backend.tuning.service import Tuning
 from backend.units.last_seen import LastSeen
@@ -50,9 +50,9 @@ def test_a_unit_that_is_away_after_a_restart_is_known_by_what_was_last_seen(stor
     opener, last_seen = UnitOpener(FakeUnit(), URL), LastSeen(units)
     devices = bench(opener, last_seen)
     devices.add(URL)
-    units.seen(SeenUnit(KEY, b"FAKE-UNIT-01".hex()))
-    last_seen.look(devices.list(), NOON_US)
-    last_seen.look(devices.list(), NOON_US + 20_000_000)
+    units.note_unit(UnitSighting(KEY, b"FAKE-UNIT-01".hex()))
+    last_seen.update(devices.list(), NOON_US)
+    last_seen.update(devices.list(), NOON_US + 20_000_000)
     tuning = Tuning(devices, RevisionStore(store.database))
     device = devices.list()[0].id
     tuning.write_config(device, {"pedal_stop_ms": 200}, "softer")
@@ -82,16 +82,16 @@ def test_it_is_written_twice_a_minute_and_when_the_unit_goes(store: Store) -> No
     opener, last_seen = UnitOpener(FakeUnit(), URL), LastSeen(units)
     devices = bench(opener, last_seen)
     devices.add(URL)
-    units.seen(SeenUnit(KEY))
+    units.note_unit(UnitSighting(KEY))
 
     def kept(now_us: int) -> int:
-        last_seen.look(devices.list(), now_us)
+        last_seen.update(devices.list(), now_us)
         return next(iter(units.sightings())).seen_us
 
     assert kept(NOON_US) == NOON_US
     assert kept(NOON_US + MINUTE_US // 4) == NOON_US
     assert kept(NOON_US + MINUTE_US) == NOON_US + MINUTE_US
-    last_seen.look(devices.list(), NOON_US + MINUTE_US + 5_000_000)
+    last_seen.update(devices.list(), NOON_US + MINUTE_US + 5_000_000)
     opener.unplug()
     eventually(lambda: devices.list()[0].state, lambda state: state not in ("ready", "read_only"))
     assert kept(NOON_US + 10 * MINUTE_US) == NOON_US + MINUTE_US + 5_000_000
@@ -104,7 +104,7 @@ def test_a_unit_that_comes_and_goes_between_two_looks_was_seen(store: Store) -> 
     devices = bench(opener, last_seen)
     devices.watch(last_seen.follower(devices.get))
     devices.add(URL)
-    units.seen(SeenUnit(KEY))
+    units.note_unit(UnitSighting(KEY))
     eventually(lambda: devices.list()[0].state, lambda state: state == "ready")
 
     opener.unplug()

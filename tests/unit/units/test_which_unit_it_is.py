@@ -67,15 +67,15 @@ class Desk:
 
     def __init__(self, store: Store, units: dict[str, FakeUnit], folder: Path) -> None:
         self.store = store
-        seen = UnitStore(store.database)
+        note_unit = UnitStore(store.database)
         self.devices = Devices(
             opener=lambda url: UnitOpener(units[url], url),
             families={EblUnit.family: EblUnit, BareUnit.family: BareUnit},
-            bike_of=seen.bike_of,
+            bike_of=note_unit.bike_of,
         )
         self.tuning = Tuning(self.devices, RevisionStore(store.database))
         self.memory = UnitMemory(
-            self.devices, RevisionStore(store.database), seen, self.tuning.note_trial_end
+            self.devices, RevisionStore(store.database), note_unit, self.tuning.note_trial_end
         )
         self.devices.watch(self.memory.follow)
         self.live = LiveTuning(self.devices)

@@ -27,21 +27,21 @@ def outcome_of_write(
     neither, PeerProtocolError naming fields when it made something else of the change, NoAnswer
     without an outcome when it is silent.
     """
-    found = yield from _read(mtu)
-    if (found.generation, found.crc32) == (base.generation, base.crc32):
+    current = yield from _read(mtu)
+    if (current.generation, current.crc32) == (base.generation, base.crc32):
         raise NoAnswer(
             "The unit did not answer the change. It was read again since: its configuration "
             "is unchanged. Write once more.",
             outcome="unchanged",
         )
-    if found.generation != base.generation + 1:
+    if current.generation != base.generation + 1:
         raise ConfigConflict(
             "The unit did not answer the change and has another configuration now. Read it "
             "again and look at the difference."
         )
-    if found.crc32 != zlib.crc32(pack_image(intended)):
-        compare(intended, found.parameters)
-    return found
+    if current.crc32 != zlib.crc32(pack_image(intended)):
+        compare(intended, current.parameters)
+    return current
 
 
 def outcome_of_confirm(tried: ConfigImage) -> Operation[ConfigImage]:

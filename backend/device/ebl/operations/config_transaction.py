@@ -17,11 +17,11 @@ from backend.device.ebl.operations.violations import unit_violations
 from backend.device.ebl.session.operation import (
     Operation,
     OrphanLeft,
-    ask,
-    ask_all,
     attempt,
     attempt_patiently,
     expect,
+    query,
+    query_all,
 )
 from backend.device.ebl.session.refusals import refused
 from backend.errors import (
@@ -85,7 +85,7 @@ class CommitUnanswered(NoAnswer):
 def read_config(mtu: int = MTU) -> Operation[ConfigImage]:
     """Read the active configuration whole. Raises PeerProtocolError when it contradicts itself."""
     for _ in range(READ_ATTEMPTS):
-        info = yield from ask(CfgInfoRequest(), CfgInfoResponse)
+        info = yield from query(CfgInfoRequest(), CfgInfoResponse)
         if info.image_length != IMAGE_LENGTH:
             raise PeerProtocolError(
                 f"The unit's configuration has {info.image_length} bytes where its description "
@@ -135,11 +135,13 @@ def _read_image(bank: Bank, mtu: int) -> Operation[tuple[int, bytes | None]]:
         CfgReadRequest(bank, at, min(piece, IMAGE_LENGTH - at))
         for at in range(0, IMAGE_LENGTH, piece)
     ]
-    parts = yield from ask_all(requests, CfgReadResponse)
+    parts = yield from query_all(requests, CfgReadResponse)
     image = b"".join(part.data for part in parts)
-    whole = all(len(part.data) == one.length for one, part in zip(requests, parts, strict=True))
+    is_complete = all(
+        len(part.data) == one.length for one, part in zip(requests, parts, strict=True)
+    )
     same = len({part.generation for part in parts}) == 1
-    return parts[0].generation, image if whole and same else None
+    return parts[0].generation, image if is_complete and same else None
 
 
 def write_config(
@@ -160,7 +162,7 @@ def write_config(
     image = pack_image({**base.parameters, **changes})
     yield from _commit(base, changes, image, mtu, confirm_s, token)
     try:
-        found = yield from read_config(mtu)
+        read_back = yield from read_config(mtu)
     except PeerProtocolError:
         raise
     except SpindleError as error:
@@ -168,20 +170,20 @@ def write_config(
             f"The unit took the change and could not be read back: {error.message} What it holds "
             "is not known until it answers."
         ) from error
-    compare(unpack_image(image), found.parameters)
-    return found
+    compare(unpack_image(image), read_back.parameters)
+    return read_back
 
 
-def compare(intended: Mapping[str, Value], found: Mapping[str, Value]) -> None:
+def compare(intended: Mapping[str, Value], read_back: Mapping[str, Value]) -> None:
     """Raise PeerProtocolError naming every parameter whose value is not the intended one."""
     wrong = [
         FieldError(
             row.name,
             "read_back_differs",
-            f"{row.name} should be {intended[row.name]} and reads back {found[row.name]}.",
+            f"{row.name} should be {intended[row.name]} and reads back {read_back[row.name]}.",
         )
         for row in PARAMETERS
-        if intended[row.name] != found[row.name]
+        if intended[row.name] != read_back[row.name]
     ]
     if wrong:
         raise PeerProtocolError(
@@ -204,7 +206,7 @@ def _commit(
     begin = yield from _begin(base)
     try:
         for items in set_items(changes, mtu - MESSAGE_OVERHEAD_BYTES):
-            yield from ask(CfgSetRequest(begin.transaction, items), CfgSetResponse)
+            yield from query(CfgSetRequest(begin.transaction, items), CfgSetResponse)
         yield from _validate(begin.transaction)
         if token is not None:
             yield from show_token(begin.transaction, token)

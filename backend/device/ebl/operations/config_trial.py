@@ -37,9 +37,9 @@ def confirm_config(intended: Mapping[str, Value], mtu: int = MTU) -> Operation[C
     status = yield from trial_status()
     if not status.on_trial:
         raise Conflict(NO_TRIAL, "no_trial")
-    found = yield from read_config(mtu)
-    compare(intended, found.parameters)
-    request = CfgConfirmRequest(found.generation, found.crc32)
+    current = yield from read_config(mtu)
+    compare(intended, current.parameters)
+    request = CfgConfirmRequest(current.generation, current.crc32)
     response = yield from _decided(request, "kept")
     if response.status in (Status.STALE_BASE, Status.CRC_MISMATCH):
         raise Conflict(NO_TRIAL, "no_trial")
@@ -48,12 +48,12 @@ def confirm_config(intended: Mapping[str, Value], mtu: int = MTU) -> Operation[C
         status = yield from trial_status()
     except NoAnswer as error:
         raise CommitUnanswered(f"{error.message} {_unsure('kept')}") from error
-    if (status.generation, status.crc32) != (found.generation, found.crc32) or status.on_trial:
+    if (status.generation, status.crc32) != (current.generation, current.crc32) or status.on_trial:
         raise Conflict(
             "The unit did not keep the change: its time ran out meanwhile. Write it again.",
             "no_trial",
         )
-    return found
+    return current
 
 
 def rollback_config(mtu: int = MTU) -> Operation[ConfigImage]:

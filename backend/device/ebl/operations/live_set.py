@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from backend.device.configuration import LiveState, Value
 from backend.device.ebl.operations.config_transaction import MESSAGE_OVERHEAD_BYTES, read_config
 from backend.device.ebl.operations.violations import unit_violations
-from backend.device.ebl.session.operation import Operation, ask, ask_all, attempt
+from backend.device.ebl.session.operation import Operation, attempt, query, query_all
 from backend.device.ebl.session.refusals import refused
 from backend.errors import (
     AccessDenied,
@@ -38,7 +38,7 @@ from firmware_protocol.parameters import ITEM_HEAD, set_items, unpack_image
 
 def read_live(mtu: int = MTU) -> Operation[LiveState]:
     """What is tried, asked of the unit. Raises NoAnswer, DeviceRefused, PeerProtocolError."""
-    status = yield from ask(CfgStatusRequest(), CfgStatusResponse)
+    status = yield from query(CfgStatusRequest(), CfgStatusResponse)
     if status.live_left_ms == 0:
         return LiveState({}, 0.0)
     config = yield from read_config(mtu)
@@ -53,7 +53,7 @@ def values_in_force(mtu: int = MTU) -> Operation[dict[str, Value]]:
     requests = [
         ParamGetRequest(b"".join(row.id.to_bytes(2, "little") for row in rows)) for rows in groups
     ]
-    answers = yield from ask_all(requests, ParamGetResponse)
+    answers = yield from query_all(requests, ParamGetResponse)
     image = bytearray(IMAGE_LENGTH)
     missing = {row.id for row in PARAMETERS}
     for row, data in _items(b"".join(answer.items for answer in answers)):

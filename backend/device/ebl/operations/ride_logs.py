@@ -5,7 +5,7 @@ from __future__ import annotations
 import struct
 
 from backend.device.ebl.session.log_receiver import LogReceiver
-from backend.device.ebl.session.operation import Operation, ask, attempt, expect
+from backend.device.ebl.session.operation import Operation, attempt, expect, query
 from backend.device.ride_logs import RideLog, RideLogs
 from backend.errors import DeviceRefused, NoAnswer, PeerProtocolError, SpindleError
 from firmware_protocol._generated import (
@@ -35,10 +35,10 @@ def list_logs() -> Operation[RideLogs]:
     """Read the directory. Raises DeviceRefused (UNSUPPORTED by a unit without logs), NoAnswer."""
     logs: list[RideLog] = []
     while True:
-        part = yield from ask(LogListRequest(len(logs), 255), LogListResponse)
-        found = [_log_of(fields) for fields in ENTRY.iter_unpack(_whole(part.entries))]
-        logs += found
-        if not found or len(logs) >= part.total:
+        part = yield from query(LogListRequest(len(logs), 255), LogListResponse)
+        entries = [_log_of(fields) for fields in ENTRY.iter_unpack(_full_entries(part.entries))]
+        logs += entries
+        if not entries or len(logs) >= part.total:
             return RideLogs(tuple(logs), part.overwritten, part.boot_id, part.now_us)
         if len(logs) > LOGS_MAX:
             raise PeerProtocolError(f"The unit lists more than {LOGS_MAX} ride logs.")
@@ -47,13 +47,13 @@ def list_logs() -> Operation[RideLogs]:
 def log_crc(log: RideLog, length: int) -> Operation[int]:
     """The unit's CRC-32 over the first `length` bytes of a log."""
     request = LogCrcRequest(log.log_id, log.generation, 0, length)
-    return (yield from ask(request, LogCrcResponse)).crc32
+    return (yield from query(request, LogCrcResponse)).crc32
 
 
 def confirm_log(log: RideLog, crc32: int) -> Operation[None]:
     """Tell the unit that the log is safe here: it may free it. DeviceRefused on another CRC-32."""
     request = LogConfirmRequest(log.log_id, log.generation, log.length, crc32)
-    yield from ask(request, LogConfirmResponse)
+    yield from query(request, LogConfirmResponse)
 
 
 def erase_log(log: RideLog) -> Operation[int]:
@@ -80,8 +80,8 @@ def outcome_of_erase(log: RideLog) -> Operation[None]:
 
     Raises NoAnswer with the outcome `unchanged` when it is still there.
     """
-    found = yield from list_logs()
-    if any((one.log_id, one.generation) == (log.log_id, log.generation) for one in found.logs):
+    current = yield from list_logs()
+    if any((one.log_id, one.generation) == (log.log_id, log.generation) for one in current.logs):
         raise NoAnswer(
             f"The unit did not answer. It was asked again since: it still has ride log "
             f"{log.log_id}. Erase it once more.",
@@ -94,7 +94,7 @@ def receive_log(
 ) -> Operation[None]:
     """Have the unit send a log from `offset` on to a receiver that the session has."""
     request = LogOpenRequest(log.log_id, log.generation, offset, window, receiver.session)
-    opened = yield from ask(request, LogOpenResponse)
+    opened = yield from query(request, LogOpenResponse)
     if opened.length != log.length or opened.chunk == 0 or opened.length % opened.chunk:
         raise PeerProtocolError(
             f"The unit listed ride log {log.log_id} with {log.length} bytes and opens it with "
@@ -111,7 +111,7 @@ def close_log(session: int) -> Operation[None]:
         return
 
 
-def _whole(entries: bytes) -> bytes:
+def _full_entries(entries: bytes) -> bytes:
     if len(entries) % ENTRY.size:
         raise PeerProtocolError(
             f"The unit's list of ride logs has {len(entries)} bytes, not a multiple of "

@@ -7,7 +7,7 @@ import zlib
 from collections.abc import Mapping
 from typing import Any
 
-from backend.device.ebl.session.operation import Operation, ask, attempt, expect
+from backend.device.ebl.session.operation import Operation, attempt, expect, query
 from backend.errors import FieldError, InvalidRequest, PeerProtocolError
 from firmware_protocol._generated import (
     SimGetRequest,
@@ -26,7 +26,7 @@ TEXT_BYTES_MAX = 16_384
 
 def simulation_get() -> Operation[dict[str, Any]]:
     """What rider, road and clock do now."""
-    answer = yield from ask(SimGetRequest(), SimGetResponse)
+    answer = yield from query(SimGetRequest(), SimGetResponse)
     return _object(answer.text)
 
 
@@ -59,9 +59,9 @@ def _inflated(text: bytes) -> bytes:
 def _object(text: bytes) -> dict[str, Any]:
     try:
         # What does not fit a frame as it is comes deflated.
-        found = json.loads(text if text.startswith(b"{") else _inflated(text))
+        document = json.loads(text if text.startswith(b"{") else _inflated(text))
     except ValueError as error:
         raise PeerProtocolError(f"The simulated unit does not answer in JSON ({error}).") from error
-    if not isinstance(found, dict):
+    if not isinstance(document, dict):
         raise PeerProtocolError("The simulated unit does not answer with an object.")
-    return found
+    return document

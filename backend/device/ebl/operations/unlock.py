@@ -113,25 +113,25 @@ def access_refused(
     image: the whole configuration that was to become active.
     """
     fields = protected(base, changes)
-    said = " ".join(field.message for field in fields) or LOST
-    wanted = level if level in LEVELS else Access.FACTORY
-    request = AuthChallengeRequest(wanted)
+    reason = " ".join(field.message for field in fields) or LOST
+    needed_level = level if level in LEVELS else Access.FACTORY
+    request = AuthChallengeRequest(needed_level)
     response = yield from attempt(request)
     if response.status in (Status.AUTH_DELAY, Status.NOT_FOUND, Status.UNKNOWN_MSG):
         error = unlock_refused(response.status, response.detail)
-        return AccessDenied(f"{said} {error.message}".strip(), error.code, fields)
+        return AccessDenied(f"{reason} {error.message}".strip(), error.code, fields)
     if response.status != Status.OK:
         return refused(request, response)
-    asked = expect(request, response, AuthChallengeResponse)
+    challenge = expect(request, response, AuthChallengeResponse)
     return TokenNeeded(
-        f"{said} The unit wants a token from its maker for exactly this change within "
-        f"{asked.ttl_s} s; `challenge` is what has to be signed. Nothing was changed.",
+        f"{reason} The unit wants a token from its maker for exactly this change within "
+        f"{challenge.ttl_s} s; `challenge` is what has to be signed. Nothing was changed.",
         {
-            "uid": asked.uid.hex(),
-            "nonce": asked.nonce.hex(),
-            "level": word_of(Access(asked.level).name),
-            "ttl_s": asked.ttl_s,
-            "expires_us": asked.expires_us,
+            "uid": challenge.uid.hex(),
+            "nonce": challenge.nonce.hex(),
+            "level": word_of(Access(challenge.level).name),
+            "ttl_s": challenge.ttl_s,
+            "expires_us": challenge.expires_us,
             "image": image.hex(),
             "image_sha512": hashlib.sha512(image).hexdigest(),
         },
@@ -141,7 +141,7 @@ def access_refused(
 
 def protected(base: Mapping[str, Value], changes: Mapping[str, Value]) -> list[FieldError]:
     """The changes that need a token: factory parameters, limits that go up, and bands left."""
-    found = []
+    names = []
     intended = {**base, **changes}
     for name, value in changes.items():
         row = PARAMETER_BY_NAME[name]
@@ -149,12 +149,12 @@ def protected(base: Mapping[str, Value], changes: Mapping[str, Value]) -> list[F
             continue
         if row.access == Access.FACTORY:
             message = f"{name} may only be changed by the factory."
-            found.append(FieldError(name, "access_denied", message))
+            names.append(FieldError(name, "access_denied", message))
         elif row.ratchet and is_raised(base[name], value):
-            found.append(FieldError(name, "token_needed", raised(row, base[name], value)))
+            names.append(FieldError(name, "token_needed", raised(row, base[name], value)))
         elif name in BAND_BY_NAME and leaves_band(BAND_BY_NAME[name], base, intended):
-            found.append(FieldError(name, "outside_band", left(BAND_BY_NAME[name], row, intended)))
-    return found
+            names.append(FieldError(name, "outside_band", left(BAND_BY_NAME[name], row, intended)))
+    return names
 
 
 def is_raised(old: Value, new: Value) -> bool:

@@ -45,10 +45,10 @@ def host_violations(config: Mapping[str, Value]) -> list[FieldError]:
 
 def _named(parameter_id: int, index: int, code: int) -> FieldError:
     row = PARAMETER_BY_ID.get(parameter_id)
-    known = Violation(code) if code in set(Violation) else None
+    violation = Violation(code) if code in set(Violation) else None
     field = _position(row, index) if row else f"parameter {parameter_id:#06x}"
-    meaning = MEANING[known] if known else f"is refused for reason {code}"
-    word = word_of(known.name) if known else f"code_{code}"
+    meaning = MEANING[violation] if violation else f"is refused for reason {code}"
+    word = word_of(violation.name) if violation else f"code_{code}"
     return FieldError(field, word, f"{field} {meaning}{_bounds(row)}.")
 
 

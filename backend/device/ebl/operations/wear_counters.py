@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import cast
 
-from backend.device.ebl.session.operation import Operation, ask
+from backend.device.ebl.session.operation import Operation, query
 from backend.device.wear_counters import ConfigSlot, WearCounters
 from backend.device.wear_counters import SlotState as SlotWord
 from firmware_protocol._generated import (
@@ -19,9 +19,9 @@ from firmware_protocol.spelling import word_of
 
 def read_wear_counters() -> Operation[WearCounters]:
     """Ask the unit. Raises NoAnswer, DeviceRefused."""
-    counters = yield from ask(CountersRequest(), CountersResponse)
-    slots = yield from ask(CfgSlotsRequest(), CfgSlotsResponse)
-    found = tuple(
+    counters = yield from query(CountersRequest(), CountersResponse)
+    slots = yield from query(CfgSlotsRequest(), CfgSlotsResponse)
+    counters_by_name = tuple(
         ConfigSlot(
             cast(SlotWord, _state_name(state)), generation, erases, slots.active_slot == index
         )
@@ -34,8 +34,8 @@ def read_wear_counters() -> Operation[WearCounters]:
         counters.operating_s,
         counters.saved_distance_m,
         counters.saved_operating_s,
-        found,
-        slots.active_slot >= len(found),
+        counters_by_name,
+        slots.active_slot >= len(counters_by_name),
     )
 
 

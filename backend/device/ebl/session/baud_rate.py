@@ -37,8 +37,8 @@ class BaudRate:
         self.first: int | None = None
         self._requests = requests
         self._current: int | None = None
-        self._last_known: int | None = None
-        self._wanted: int | None = None
+        self._last_working: int | None = None
+        self._requested: int | None = None
         self._tried: list[int | None] = []
         self._failures = 0
         self._proven_s: float | None = None
@@ -49,14 +49,14 @@ class BaudRate:
         """The port's rate, bits a second."""
         return self._current
 
-    def opened(self, first: float | None, wanted: float | None) -> None:
-        """A port is open at `first`. wanted: the rate to ask for, None for the fastest there is."""
-        before = (self.first, self._wanted)
+    def opened(self, first: float | None, requested: float | None) -> None:
+        """A port is open at `first`. requested: the rate to ask for, None for the fastest."""
+        before = (self.first, self._requested)
         self.first = None if first is None else round(first)
-        self._wanted = None if wanted is None else round(wanted)
-        if before != (self.first, self._wanted):
+        self._requested = None if requested is None else round(requested)
+        if before != (self.first, self._requested):
             # A line that runs at a rate of its own is found there.
-            self._last_known = self._wanted
+            self._last_working = self._requested
         self._current = self._requests.bits_per_second = self.first
         self._to_set = None
         self._failures = 0
@@ -67,14 +67,14 @@ class BaudRate:
         rate, self._to_set = self._to_set, None
         return rate
 
-    def start_over(self, heard: bool) -> None:
+    def start_over(self, is_responding: bool) -> None:
         """A handshake begins: where the unit was heard just now, otherwise at the first rate."""
         self._tried = []
-        self._try(self._current if heard else self.first)
+        self._try(self._current if is_responding else self.first)
 
     def try_another(self) -> bool:
         """Go to a rate that this handshake has not tried; False when there is none."""
-        for rate in (self.first, self._last_known):
+        for rate in (self.first, self._last_working):
             if rate is not None and self.first is not None and rate not in self._tried:
                 self._try(rate)
                 return True
@@ -122,11 +122,11 @@ class BaudRate:
             except NoAnswer:
                 self._failures += 1
                 # Our PING may have been heard and its answer lost: then the unit is there.
-                self._last_known = rate
+                self._last_working = rate
                 self._go(before)
                 yield from attempt(PingRequest())
             else:
-                self._last_known = rate
+                self._last_working = rate
 
     def proven(self, now_s: float) -> None:
         """The handshake succeeded at this rate."""
@@ -136,10 +136,10 @@ class BaudRate:
         if self._current is None or self._failures >= SWITCHES_MAX:
             return None
         rates = [rate for rate, bit in RATES.items() if offered & bit]
-        if self._wanted is not None:
-            rates = [rate for rate in rates if rate == self._wanted]
+        if self._requested is not None:
+            rates = [rate for rate in rates if rate == self._requested]
         fastest = max(rates, default=self._current)
-        worth = fastest > self._current or self._wanted is not None
+        worth = fastest > self._current or self._requested is not None
         return fastest if worth and fastest != self._current else None
 
     def _try(self, rate: int | None) -> None:

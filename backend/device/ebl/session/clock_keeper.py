@@ -18,7 +18,7 @@ BURST_EVERY_S = 0.1
 EVERY_S = 10.0
 UNCERTAINTY_US_MAX = 2**32 - 1
 # A host whose clock stands before 2020 does not know the time and does not tell it.
-KNOWN_TIME_UNIX_US = 1_577_836_800_000_000
+PLAUSIBLE_UNIX_US = 1_577_836_800_000_000
 
 
 class ClockKeeper:
@@ -28,7 +28,7 @@ class ClockKeeper:
         self._statistics = statistics
         self._estimator = ClockEstimator()
         self._due_s: float | None = None
-        self._asked = 0
+        self._requests = 0
         # Unix time minus the host's steady time, as the unit may have been told it.
         self._offset_us: int | None = None
 
@@ -40,7 +40,7 @@ class ClockKeeper:
     def begin(self, now_s: float) -> None:
         """A unit was met: its clock is one nobody knows."""
         self._estimator = ClockEstimator()
-        self._asked = 0
+        self._requests = 0
         self._offset_us = None
         self._due_s = now_s + BURST_EVERY_S
         self._statistics.clock_skew_ppm = self._statistics.clock_uncertainty_ms = None
@@ -53,11 +53,11 @@ class ClockKeeper:
         """Whether it is time to ask; says so once for each time."""
         if self._due_s is None or now_s < self._due_s:
             return False
-        self._asked += 1
-        self._due_s = now_s + (BURST_EVERY_S if self._asked < BURST else EVERY_S)
+        self._requests += 1
+        self._due_s = now_s + (BURST_EVERY_S if self._requests < BURST else EVERY_S)
         return True
 
-    def ask(
+    def synchronise(
         self, runner: OperationRunner, now: Callable[[], float], wall_us: Callable[[], int]
     ) -> None:
         """Ask for the time, and tell ours after the first burst. now: s. wall_us: Unix time."""
@@ -66,7 +66,7 @@ class ClockKeeper:
             offset_us = wall_us() - round(now() * 1e6)
             if self._answered(answer, now()) or self._was_set(offset_us):
                 self._offset_us = offset_us
-                runner.start(self._tell(wall_us()), lambda told: None, lambda error: None)
+                runner.start(self._set_unit_clock(wall_us()), lambda told: None, lambda error: None)
 
         runner.start(self._sync(now()), answered, lambda error: None)
 
@@ -88,7 +88,7 @@ class ClockKeeper:
         if estimate is not None:
             self._statistics.clock_skew_ppm = round(estimate.skew_ppm, 3)
             self._statistics.clock_uncertainty_ms = round(estimate.uncertainty_us / 1000.0, 3)
-        return self._asked == BURST and answer.unix_us == 0
+        return self._requests == BURST and answer.unix_us == 0
 
     def _was_set(self, offset_us: int) -> bool:
         """Whether our clock was set since the unit was met or told the time last."""
@@ -96,10 +96,10 @@ class ClockKeeper:
             self._offset_us = offset_us
         return self._due_s is not None and set_by_us(self._offset_us, offset_us) != 0
 
-    def _tell(self, unix_us: int) -> Operation[None]:
+    def _set_unit_clock(self, unix_us: int) -> Operation[None]:
         """Tell the unit the time of the world, if we know it."""
         estimate = self._estimator.estimate
-        if estimate is None or unix_us < KNOWN_TIME_UNIX_US:
+        if estimate is None or unix_us < PLAUSIBLE_UNIX_US:
             return
         uncertainty_us = min(round(estimate.uncertainty_us), UNCERTAINTY_US_MAX)
         yield from attempt(TimSetRequest(unix_us, 0, uncertainty_us))

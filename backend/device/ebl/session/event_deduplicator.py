@@ -42,25 +42,25 @@ class EventDeduplicator:
         self._statistics = statistics
         self._boot_id: int | None = None
         self._next_seq: int | None = None
-        self._seen: deque[int] = deque(maxlen=REMEMBERED_MAX)
+        self._recent_seqs: deque[int] = deque(maxlen=REMEMBERED_MAX)
         self._missing: deque[int] = deque(maxlen=REMEMBERED_MAX)
 
     def handshake_done(self, boot_id: int) -> None:
         """HELLO was answered: after a reboot old numbers mean nothing, and none before is lost."""
         if boot_id != self._boot_id:
-            self._seen.clear()
+            self._recent_seqs.clear()
         self._boot_id = boot_id
         self._next_seq = None
         self._missing.clear()
 
-    def came(self, event: Event) -> Arrival:
+    def classify(self, event: Event) -> Arrival:
         """Note an event and say how it came."""
         if isinstance(event.message, BootEvent) and event.message.boot_id != self._boot_id:
             self.handshake_done(event.message.boot_id)
-        if event.seq in self._seen:
+        if event.seq in self._recent_seqs:
             self._statistics.unit_events_again += 1
             return Arrival.AGAIN
-        self._seen.append(event.seq)
+        self._recent_seqs.append(event.seq)
         self._statistics.unit_events += 1
         if event.retransmit or self._is_behind(event.seq):
             if event.seq in self._missing:

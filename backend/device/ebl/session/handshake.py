@@ -1,4 +1,4 @@
-"""The handshake: HELLO, the version, the schema (protocol page, 4.3 Connect).
+"""The handshake: HELLO, the version, the schema.
 
 A unit whose schema is the one this program was built with can be read and written. Another schema
 is taken from those known or read from the unit, and proven by its hash. Where it means the same to
@@ -12,9 +12,9 @@ from dataclasses import dataclass
 
 from backend.device.configuration import TrialStatus
 from backend.device.ebl.session.hello_identity import identity_of
-from backend.device.ebl.session.operation import Operation, ask, attempt, expect
+from backend.device.ebl.session.operation import Operation, attempt, expect, query
 from backend.device.ebl.session.refusals import refused
-from backend.device.ebl.session.schema import Schemas, differences, known_schema, shared_channels
+from backend.device.ebl.session.schema import Schemas, differences, schema_of_unit, shared_channels
 from backend.device.ebl.session.trial_status import trial_status
 from backend.device.identity import Identity
 from backend.errors import DeviceRefused, NoAnswer, PeerProtocolError
@@ -38,7 +38,7 @@ from firmware_protocol.spelling import word_of
 
 HELLO_ATTEMPTS = 5
 # What a person can take in; the rest is counted.
-DIFFERENCES_TOLD = 3
+DIFFERENCES_SHOWN = 3
 
 
 class VersionRefused(PeerProtocolError):
@@ -83,7 +83,7 @@ def run_handshake(
     trial = None
     cause = None
     if reason is None:
-        faults, trial = yield from ask_unit_state()
+        faults, trial = yield from read_unit_state()
         cause = yield from _reset_cause()
     identity = identity_of(hello, cause)
     return Handshake(hello, identity, reason, channels, faults, trial)
@@ -104,7 +104,7 @@ def _other_schema(
     """Why a unit of another schema is only looked at, None if it is not, and its channels."""
     name = hello.schema_hash.hex()
     try:
-        schema = yield from known_schema(hello, schemas)
+        schema = yield from schema_of_unit(hello, schemas)
     except VersionRefused:
         raise
     except (DeviceRefused, PeerProtocolError, NoAnswer) as error:
@@ -116,17 +116,17 @@ def _other_schema(
     wrong = differences(schema)
     if not wrong:
         return None, shared_channels(schema)
-    more = f" and {len(wrong) - DIFFERENCES_TOLD} more" if len(wrong) > DIFFERENCES_TOLD else ""
+    more = f" and {len(wrong) - DIFFERENCES_SHOWN} more" if len(wrong) > DIFFERENCES_SHOWN else ""
     return (
         f"The unit's description {name} is not the one of this Spindle ({SCHEMA_HASH.hex()}): "
-        f"{'; '.join(wrong[:DIFFERENCES_TOLD])}{more}. Live values that both know are shown; to "
+        f"{'; '.join(wrong[:DIFFERENCES_SHOWN])}{more}. Live values that both know are shown; to "
         "change settings, use the Spindle that belongs to its firmware, or update one of them."
     ), shared_channels(schema)
 
 
-def ask_unit_state() -> Operation[tuple[int, TrialStatus]]:
+def read_unit_state() -> Operation[tuple[int, TrialStatus]]:
     """What the unit's events would have told: its active faults, and its configuration."""
-    listed = yield from ask(EvtFaultListRequest(), EvtFaultListResponse)
+    listed = yield from query(EvtFaultListRequest(), EvtFaultListResponse)
     trial = yield from trial_status()
     return listed.fault_flags, trial
 

@@ -41,12 +41,12 @@ class LogReceiver:
         self._chunk = 0
         self._window = 0
         self._ahead: dict[int, bytes] = {}
-        self._pieces: deque[bytes] = deque()
+        self._segments: deque[bytes] = deque()
         self._highest = 0
         self._unacknowledged = 0
         self._ack_due_s: float | None = None
         self._acked_s = now_s
-        self._heard_s = now_s
+        self._received_s = now_s
 
     def begin(self, offset: int, length: int, chunk: int, window: int) -> None:
         """The unit has agreed: `length` bytes in pieces of `chunk`, of which `offset` are here.
@@ -69,7 +69,7 @@ class LogReceiver:
             self.frames_foreign += 1
             return
         self.frames += 1
-        self._heard_s = now_s
+        self._received_s = now_s
         self._unacknowledged += 1
         if self._ack_due_s is None:
             self._ack_due_s = now_s + ACK_AFTER_S
@@ -83,7 +83,7 @@ class LogReceiver:
         self._highest = max(self._highest, offset + size)
         self._ahead[offset] = frame.data
         while (piece := self._ahead.pop(self.received, None)) is not None:
-            self._pieces.append(piece)
+            self._segments.append(piece)
             self.received += len(piece)
         if self.received == self._length or self._unacknowledged >= ACK_EVERY_CHUNKS:
             self._ack_due_s = now_s
@@ -99,7 +99,7 @@ class LogReceiver:
         """What to tell the unit now; None when there is nothing to tell."""
         if self._chunk == 0 or self.failure is not None:
             return None
-        if now_s - self._heard_s >= SILENCE_S and not self.done:
+        if now_s - self._received_s >= SILENCE_S and not self.done:
             self.failure = f"The unit sent nothing of its log for {SILENCE_S:g} s."
             return None
         again = not self.done and now_s - self._acked_s >= ACK_AGAIN_S
@@ -120,9 +120,9 @@ class LogReceiver:
         if not self.done and self.failure is None:
             self.failure = reason
 
-    def take_pieces(self) -> list[bytes]:
+    def take_segments(self) -> list[bytes]:
         """Bytes in order since the last call; together with those before, `received` of them."""
-        pieces = []
-        while self._pieces:
-            pieces.append(self._pieces.popleft())
-        return pieces
+        segments = []
+        while self._segments:
+            segments.append(self._segments.popleft())
+        return segments

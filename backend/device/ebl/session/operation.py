@@ -20,7 +20,7 @@ from firmware_protocol._generated import Status
 from firmware_protocol.codec import Response
 from firmware_protocol.layout import Message
 
-# The first sending and three repetitions (protocol page, 4.3).
+# The first sending and three repetitions.
 ATTEMPTS = 4
 # A unit that asks for longer spares its flash: whoever writes has to know.
 PATIENCE_MS = 5000
@@ -79,13 +79,13 @@ def attempt_patiently(message: Message, waits_max: int = 3) -> Operation[Respons
     return response
 
 
-def ask(message: Message, answer: type[Answer], attempts: int = ATTEMPTS) -> Operation[Answer]:
+def query(message: Message, answer: type[Answer], attempts: int = ATTEMPTS) -> Operation[Answer]:
     """Ask and return the answer's fields. Raises DeviceRefused for any status but OK, NoAnswer."""
     response = yield from attempt(message, attempts)
     return expect(message, response, answer)
 
 
-def ask_all(messages: Sequence[Message], answer: type[Answer]) -> Operation[list[Answer]]:
+def query_all(messages: Sequence[Message], answer: type[Answer]) -> Operation[list[Answer]]:
     """Ask several at once, so that the line never idles between them; answers in their order."""
     responses = yield tuple(Question(message) for message in messages)
     return [

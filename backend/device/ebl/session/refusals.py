@@ -46,15 +46,15 @@ def status_name(status: int) -> str:
 def refused(message: Message, response: Response) -> DeviceRefused:
     """The error for a response that is not OK: what was asked, the unit's reason, the detail."""
     name = status_name(response.status)
-    known = Status(response.status) if response.status in set(Status) else None
+    status = Status(response.status) if response.status in set(Status) else None
     meaning = (
-        MEANING.get(known, "a reason this Spindle does not know")
-        if known
+        MEANING.get(status, "a reason this Spindle does not know")
+        if status
         else ("a reason this Spindle does not know")
     )
-    asked = type(message).__name__.removesuffix("Request")
+    request_name = type(message).__name__.removesuffix("Request")
     return DeviceRefused(
-        f"The unit refused {asked} ({name}, {response.detail}): {meaning}.",
+        f"The unit refused {request_name} ({name}, {response.detail}): {meaning}.",
         status=name,
         detail=response.detail,
     )

@@ -30,7 +30,7 @@ OnAnswer = Callable[[Response | SpindleError], None]
 
 
 @dataclass(eq=False)
-class _UnderWay:
+class _Pending:
     question: Question
     on_answer: OnAnswer
     ready_s: float | None = None
@@ -60,13 +60,13 @@ class RequestTable:
         self._started = 0
         self._smoothed_s: float | None = None
         self._shut: SpindleError | None = None
-        self._waiting: deque[_UnderWay] = deque()
-        self._under_way: dict[int, _UnderWay] = {}
+        self._waiting: deque[_Pending] = deque()
+        self._pending: dict[int, _Pending] = {}
 
     @property
     def is_idle(self) -> bool:
         """Whether nothing is under way; what waits for its time does not keep the line busy."""
-        return not self._under_way and all(one.question.after_s > 0.0 for one in self._waiting)
+        return not self._pending and all(one.question.after_s > 0.0 for one in self._waiting)
 
     def submit(self, question: Question, on_answer: OnAnswer) -> Callable[[], None]:
         """Queue a question; `on_answer` gets the response or the error, exactly once.
@@ -77,7 +77,7 @@ class RequestTable:
             raise self._shut
         if len(self._waiting) >= WAITING_MAX:
             raise LinkError("The unit has too many requests waiting; try again in a moment.")
-        entry = _UnderWay(question, on_answer)
+        entry = _Pending(question, on_answer)
         self._waiting.append(entry)
         return partial(self._withdraw, entry)
 
@@ -87,8 +87,8 @@ class RequestTable:
         Requests out of attempts get NoAnswer.
         """
         out = bytearray()
-        for entry in [entry for entry in self._under_way.values() if entry.due_s <= now_s]:
-            if self._under_way.get(entry.tid) is not entry:
+        for entry in [entry for entry in self._pending.values() if entry.due_s <= now_s]:
+            if self._pending.get(entry.tid) is not entry:
                 # Whoever got the answer before this one ended the conversation.
                 continue
             if entry.attempts_left > 0:
@@ -96,7 +96,7 @@ class RequestTable:
                 self._statistics.requests_repeated += 1
                 out += self._send(entry, now_s)
             else:
-                del self._under_way[entry.tid]
+                del self._pending[entry.tid]
                 self._statistics.requests_unanswered += 1
                 entry.on_answer(_no_answer(entry))
         for entry in self._ready(now_s):
@@ -109,14 +109,14 @@ class RequestTable:
 
     def answered(self, response: Response, now_s: float) -> None:
         """Match a response to its request; one that fits nothing is counted and dropped."""
-        entry = self._under_way.get(response.tid)
+        entry = self._pending.get(response.tid)
         if entry is None or response.message_id != entry.question.message.MESSAGE_ID:
             self._statistics.responses_unexpected += 1
             return
         if response.status == Status.PENDING:
-            self._keep_waiting(entry, response.detail / 1000.0, now_s)
+            self._extend_deadline(entry, response.detail / 1000.0, now_s)
             return
-        del self._under_way[entry.tid]
+        del self._pending[entry.tid]
         if not entry.repeated:
             # Karn: a repeated request does not tell which sending was answered.
             self._measure(now_s - entry.sent_s)
@@ -134,8 +134,8 @@ class RequestTable:
     def shut(self, error: SpindleError) -> None:
         """Give every request this error, later ones too until `open`: the unit is gone."""
         self._shut = error
-        entries = [*self._under_way.values(), *self._waiting]
-        self._under_way.clear()
+        entries = [*self._pending.values(), *self._waiting]
+        self._pending.clear()
         self._waiting.clear()
         for entry in entries:
             entry.on_answer(error)
@@ -147,11 +147,11 @@ class RequestTable:
             line_s = (request_bytes + self.longest_answer) * BITS_PER_BYTE / self.bits_per_second
         return max(TIMEOUT_S_MIN, 4.0 * (self._smoothed_s or 0.0) + line_s)
 
-    def _withdraw(self, entry: _UnderWay) -> None:
+    def _withdraw(self, entry: _Pending) -> None:
         if entry in self._waiting:
             self._waiting.remove(entry)
-        if self._under_way.get(entry.tid) is entry:
-            del self._under_way[entry.tid]
+        if self._pending.get(entry.tid) is entry:
+            del self._pending[entry.tid]
 
     def _may_start(self) -> bool:
         """Whether one more request keeps every repetition recognisable.
@@ -159,33 +159,33 @@ class RequestTable:
         The unit remembers its last `outstanding_max` answers. A request whose answer was lost must
         still be among them when it is repeated, so no more than that may start after the oldest.
         """
-        if not self._under_way:
+        if not self._pending:
             return True
-        oldest = next(iter(self._under_way.values()))
+        oldest = next(iter(self._pending.values()))
         return self._started - oldest.number < self.outstanding_max
 
-    def _ready(self, now_s: float) -> list[_UnderWay]:
+    def _ready(self, now_s: float) -> list[_Pending]:
         """What waits for nothing but its turn, in order."""
-        found = []
+        ready = []
         for entry in self._waiting:
             if entry.ready_s is None:
                 entry.ready_s = now_s + entry.question.after_s
             if entry.ready_s <= now_s:
-                found.append(entry)
-        return found
+                ready.append(entry)
+        return ready
 
-    def _start(self, entry: _UnderWay) -> None:
-        while self._next_tid in self._under_way:
+    def _start(self, entry: _Pending) -> None:
+        while self._next_tid in self._pending:
             self._next_tid = self._next_tid % 255 + 1
         entry.tid = self._next_tid
         self._next_tid = self._next_tid % 255 + 1
         entry.attempts_left = entry.question.attempts
         entry.number = self._started
         self._started += 1
-        self._under_way[entry.tid] = entry
+        self._pending[entry.tid] = entry
         self._statistics.requests_sent += 1
 
-    def _send(self, entry: _UnderWay, now_s: float) -> bytes:
+    def _send(self, entry: _Pending, now_s: float) -> bytes:
         request = Request(entry.tid, entry.question.message, retransmit=entry.repeated)
         entry.wire = encode_frame(encode(request))
         entry.attempts_left -= 1
@@ -196,7 +196,7 @@ class RequestTable:
         entry.due_s = now_s + patience_s
         return entry.wire
 
-    def _keep_waiting(self, entry: _UnderWay, hint_s: float, now_s: float) -> None:
+    def _extend_deadline(self, entry: _Pending, hint_s: float, now_s: float) -> None:
         if entry.pending_since_s is None:
             entry.pending_since_s = now_s
         if now_s - entry.pending_since_s < PENDING_S_MAX:
@@ -208,9 +208,9 @@ class RequestTable:
         self._statistics.round_trip_ms = self._smoothed_s * 1000.0
 
 
-def _no_answer(entry: _UnderWay) -> NoAnswer:
-    asked = type(entry.question.message).__name__.removesuffix("Request")
+def _no_answer(entry: _Pending) -> NoAnswer:
+    request_name = type(entry.question.message).__name__.removesuffix("Request")
     return NoAnswer(
-        f"The unit did not answer {asked} ({entry.question.attempts} attempts). "
+        f"The unit did not answer {request_name} ({entry.question.attempts} attempts). "
         "Check that it is switched on and the cable holds."
     )

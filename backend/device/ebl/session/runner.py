@@ -99,18 +99,18 @@ class _Answers:
     """The responses of questions that are on the way together."""
 
     def __init__(self, count: int) -> None:
-        self._found: dict[int, Response] = {}
+        self._responses: dict[int, Response] = {}
         self._count = count
         self._failed = False
 
     @property
     def responses(self) -> list[Response]:
-        return [self._found[index] for index in range(self._count)]
+        return [self._responses[index] for index in range(self._count)]
 
     def fill(self, index: int, response: Response) -> bool:
         """Keep a response; True when it was the last and none failed."""
-        self._found[index] = response
-        return len(self._found) == self._count and not self._failed
+        self._responses[index] = response
+        return len(self._responses) == self._count and not self._failed
 
     def fail(self) -> bool:
         """Note a failure; True for the first."""

@@ -13,7 +13,7 @@ import zlib
 from collections.abc import Iterator, Mapping, MutableMapping, Sequence
 from typing import Any
 
-from backend.device.ebl.session.operation import Operation, ask
+from backend.device.ebl.session.operation import Operation, query
 from backend.errors import PeerProtocolError
 from firmware_protocol._generated import (
     BANDS,
@@ -58,17 +58,17 @@ BAND_KEYS = ("parameter", "around", "within_pct", "within", "times")
 Schemas = MutableMapping[str, bytes]
 
 
-def known_schema(hello: HelloResponse, schemas: Schemas) -> Operation[dict[str, Any]]:
+def schema_of_unit(hello: HelloResponse, schemas: Schemas) -> Operation[dict[str, Any]]:
     """The schema a unit was built with: one of `schemas`, else read from the unit and put there.
 
     Raises PeerProtocolError when what the unit sends is not what it promised, DeviceRefused,
     NoAnswer.
     """
     name = hello.schema_hash.hex()
-    kept = schemas.get(name)
-    if kept is not None:
+    stored = schemas.get(name)
+    if stored is not None:
         try:
-            return unpack_schema(kept, hello.schema_hash)
+            return unpack_schema(stored, hello.schema_hash)
         except PeerProtocolError:
             del schemas[name]
     compressed = yield from read_schema(hello)
@@ -83,7 +83,7 @@ def read_schema(hello: HelloResponse) -> Operation[bytes]:
     compressed = b""
     total = 1
     while len(compressed) < total:
-        part = yield from ask(SchemaReadRequest(len(compressed), piece), SchemaReadResponse)
+        part = yield from query(SchemaReadRequest(len(compressed), piece), SchemaReadResponse)
         total = part.total_length
         if not part.data or total > SCHEMA_COMPRESSED_BYTES_MAX:
             raise PeerProtocolError(
@@ -98,10 +98,10 @@ def unpack_schema(compressed: bytes, schema_hash: bytes) -> dict[str, Any]:
     unpacker = zlib.decompressobj()
     try:
         text = unpacker.decompress(compressed, SCHEMA_TEXT_BYTES_MAX)
-        found = hashlib.sha256(text).digest()[: len(schema_hash)]
-        if found != schema_hash:
+        digest = hashlib.sha256(text).digest()[: len(schema_hash)]
+        if digest != schema_hash:
             raise PeerProtocolError(
-                f"It promised {schema_hash.hex()} and sent {found.hex()}; its firmware is damaged."
+                f"It promised {schema_hash.hex()} and sent {digest.hex()}; its firmware is damaged."
             )
         schema = json.loads(text)
     except (zlib.error, UnicodeDecodeError, ValueError, RecursionError) as error:
@@ -209,10 +209,15 @@ def _message_differences(schema: Mapping[str, Any]) -> Iterator[str]:
             if identity in NEEDED:
                 yield f"it does not know {name}"
             continue
-        asked, answered = _layout(request.LAYOUT), _layout(RESPONSE_BY_ID[identity].LAYOUT)
-        theirs_asked = _without_high_halves(other.get("request"))
+        request_layout, response_layout = (
+            _layout(request.LAYOUT),
+            _layout(RESPONSE_BY_ID[identity].LAYOUT),
+        )
+        their_request = _without_high_halves(other.get("request"))
         theirs_answered = _without_high_halves(other.get("response"))
-        if not _begins_with(asked, theirs_asked) or not _begins_with(theirs_answered, answered):
+        if not _begins_with(request_layout, their_request) or not _begins_with(
+            theirs_answered, response_layout
+        ):
             yield f"{name} means something else to it"
 
 

@@ -148,11 +148,11 @@ class Session:
         self._events: deque[DeviceEvent] = deque()
         self._out = bytearray()
         self._phase = _Phase.OPENING
-        self._until_s = self._heard_s = self._now_s = now_s
+        self._until_s = self._received_s = self._now_s = now_s
         self._port_name = ""
         self._nonce = bytes(8)
         # The latest restart the unit told of since it was last asked who it is.
-        self._boot_heard: int | None = None
+        self._boot_id_heard: int | None = None
         self._requests.shut(LinkError(self.reason))
 
     # ------------------------------------------------------------------ bytes and time
@@ -169,7 +169,7 @@ class Session:
         bad = stats.crc_errors + stats.cobs_errors + stats.overflows
         self._statistics.frames_bad = self._bad_before + bad
         for frame in frames:
-            self._heard_s = now_s
+            self._received_s = now_s
             self._statistics.frames_received += 1
             self._frame(frame)
         self._acknowledge_log()
@@ -180,10 +180,10 @@ class Session:
         self._now_s = now_s
         self._subscription.read_at(now_s)
         if self._phase in (_Phase.FLUSHING, _Phase.PAUSING) and now_s >= self._until_s:
-            self.line.start_over(heard=False)
+            self.line.start_over(is_responding=False)
             self._start_handshake()
         elif self._phase is _Phase.UP:
-            self._keep_up()
+            self._do_due_work()
         self._acknowledge_log()
         self._out += self._requests.frames_due(now_s)
 
@@ -208,16 +208,16 @@ class Session:
         name: str,
         nonce: bytes,
         bits_per_second: float | None = None,
-        wanted: float | None = None,
+        requested: float | None = None,
     ) -> None:
         """A port is open. nonce: 8 random bytes, so that no unit mistakes us for our past.
 
-        bits_per_second, wanted: as in backend.device.link.Link.
+        bits_per_second, requested: as in backend.device.link.Link.
         """
         self._now_s = now_s
         self._port_name = name
         self._nonce = nonce
-        self.line.opened(bits_per_second, wanted)
+        self.line.opened(bits_per_second, requested)
         self._requests.start_from(nonce[0])
         self._bad_before = self._statistics.frames_bad
         self._decoder = FrameDecoder(MTU)
@@ -337,16 +337,16 @@ class Session:
                 self._requests.shut(newer_version(frame[0] >> 5))
 
     def _unit_event(self, event: Event) -> None:
-        arrival = self._event_deduplicator.came(event)
+        arrival = self._event_deduplicator.classify(event)
         self._out += acknowledgement(event)
         if arrival is Arrival.AGAIN:
             return
         if isinstance(event.message, StreamCountsEvent):
             self._subscription.counted(event.message)
         late = arrival is Arrival.LATE
-        told = self.unit_state.take(event, self._statistics, self._now_s, late)
-        if told is not None:
-            self._emit(told)
+        unit_event = self.unit_state.take(event, self._statistics, self._now_s, late)
+        if unit_event is not None:
+            self._emit(unit_event)
             # What the handshake asked for may be older; a return does not say why it was.
             returned = isinstance(event.message, ConfigRolledBackEvent)
             if returned or self._phase is not _Phase.UP:
@@ -355,18 +355,18 @@ class Session:
             self._state_keeper.mark_stale()
         if not isinstance(event.message, BootEvent):
             return
-        self._boot_heard = event.message.boot_id
+        self._boot_id_heard = event.message.boot_id
         if self._phase is _Phase.UP and self._has_rebooted():
             self._repeat_handshake(restarted_reason())
 
     def _has_rebooted(self) -> bool:
         """Whether a restart was heard since HELLO was asked and HELLO was answered before it."""
-        known = self.handshake.identity.boot_id if self.handshake else None
-        return self._boot_heard is not None and self._boot_heard != known
+        boot_id = self.handshake.identity.boot_id if self.handshake else None
+        return self._boot_id_heard is not None and self._boot_id_heard != boot_id
 
     def _start_handshake(self) -> None:
         self._phase = _Phase.HANDSHAKE
-        self._boot_heard = None
+        self._boot_id_heard = None
         self._requests.open(outstanding_max=1)
         handshake = run_handshake(self._nonce, self._schemas, self.line.go_faster)
         self._runner.start(handshake, self._handshake_done, self._handshake_failed)
@@ -376,7 +376,7 @@ class Session:
             return
         self.handshake = handshake
         if self._has_rebooted():
-            self.line.start_over(heard=True)
+            self.line.start_over(is_responding=True)
             self._start_handshake()
             return
         self.line.proven(self._now_s)
@@ -386,7 +386,7 @@ class Session:
         if handshake.read_only_reason is None:
             self.clock.begin(self._now_s)
         self._phase = _Phase.UP
-        self._heard_s = self._now_s
+        self._received_s = self._now_s
         self._statistics.connections += 1
         hello = handshake.hello
         self._requests.outstanding_max = max(1, hello.max_outstanding)
@@ -417,35 +417,35 @@ class Session:
         if self._phase is _Phase.UP:
             self._set_state(self.state, no_stream_reason(self.reason, error))
 
-    def _keep_up(self) -> None:
+    def _do_due_work(self) -> None:
         if self.state is LinkState.READY:
             self._state_keeper.refresh()
-        silent_s = self._now_s - self._heard_s
+        silent_s = self._now_s - self._received_s
         if silent_s >= SILENCE_S:
-            self._lose(rx_timeout_reason(self._port_name))
+            self._connection_lost(rx_timeout_reason(self._port_name))
         elif self._stream.tx_timed_out:
-            self._lose(tx_timeout_reason(self._port_name))
-        elif self._stream.keep():
+            self._connection_lost(tx_timeout_reason(self._port_name))
+        elif self._stream.do_due_work():
             return
         elif self._requests.is_idle and self.clock.due(self._now_s):
-            self.clock.ask(self._runner, lambda: self._now_s, self._wall_us)
+            self.clock.synchronise(self._runner, lambda: self._now_s, self._wall_us)
         elif silent_s >= PING_S and self._requests.is_idle:
             self._runner.start(attempt(AliveRequest()), self._is_alive, lambda error: None)
 
     def _is_alive(self, response: Response) -> None:
         """BOOT may have been lost; the line that was silent asks whether it is still the same."""
-        known, now = self.handshake, response.message
-        if not isinstance(now, AliveResponse) or known is None:
+        handshake, now = self.handshake, response.message
+        if not isinstance(now, AliveResponse) or handshake is None:
             return
-        met = (known.hello.boot_id, known.hello.session_id)
+        met = (handshake.hello.boot_id, handshake.hello.session_id)
         if self._phase is _Phase.UP and met != (now.boot_id, now.session_id):
             self._repeat_handshake(restarted_reason())
 
-    def _lose(self, reason: str) -> None:
+    def _connection_lost(self, reason: str) -> None:
         self._break_off(NoAnswer(reason))
         self._set_state(LinkState.LOST, reason)
         self.line.lost(self._now_s)
-        self.line.start_over(heard=False)
+        self.line.start_over(is_responding=False)
         self._out += FLUSH
         self._start_handshake()
 
@@ -456,7 +456,7 @@ class Session:
     def _repeat_handshake(self, reason: str) -> None:
         self._break_off(NoAnswer(reason))
         self._set_state(LinkState.CONNECTING, reason)
-        self.line.start_over(heard=True)
+        self.line.start_over(is_responding=True)
         self._start_handshake()
 
     def _break_off(self, error: SpindleError) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from backend.device.configuration import TrialStatus
-from backend.device.ebl.session.handshake import ask_unit_state
+from backend.device.ebl.session.handshake import read_unit_state
 from backend.device.ebl.session.runner import OperationRunner
 from backend.device.ebl.session.unit_state import UnitState
 from backend.errors import NoAnswer
@@ -21,7 +21,7 @@ class StateKeeper:
         self._runner = runner
         self._now = now
         self._stale = False
-        self._asked = False
+        self._is_querying = False
 
     def mark_stale(self) -> None:
         """What is known may be older than the unit."""
@@ -29,15 +29,15 @@ class StateKeeper:
 
     def refresh(self) -> None:
         """Ask if it is stale; a question that nobody answers leaves it so."""
-        if self._stale and not self._asked:
-            self._stale, self._asked = False, True
-            self._runner.start(ask_unit_state(), self._answered, self._unanswered)
+        if self._stale and not self._is_querying:
+            self._stale, self._is_querying = False, True
+            self._runner.start(read_unit_state(), self._answered, self._unanswered)
 
     def _answered(self, state: tuple[int, TrialStatus]) -> None:
-        self._asked = False
+        self._is_querying = False
         if not self._stale:
             self._unit_state.refresh(*state, self._now())
 
     def _unanswered(self, error: BaseException) -> None:
-        self._asked = False
+        self._is_querying = False
         self._stale |= isinstance(error, NoAnswer)

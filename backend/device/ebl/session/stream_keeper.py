@@ -44,7 +44,7 @@ class StreamKeeper:
         self._on_started = on_started
         self._on_reboot = on_reboot
         self._on_refused = on_refused
-        self._known: Handshake | None = None
+        self._handshake: Handshake | None = None
         self._due_s: float | None = None
         self._renewals_unanswered = 0
 
@@ -53,20 +53,22 @@ class StreamKeeper:
         """Whether the unit leaves renewals unanswered while its rows may still come."""
         return self._renewals_unanswered >= RENEWALS_UNANSWERED_MAX
 
-    def begin(self, known: Handshake) -> None:
+    def begin(self, handshake: Handshake) -> None:
         """The unit is known: subscribe to what the plan wants and the unit has."""
-        self._known, self._due_s = known, None
-        if self._plan is None or not known.channels:
+        self._handshake, self._due_s = handshake, None
+        if self._plan is None or not handshake.channels:
             return
-        plan = replace(self._plan, channels=known.channels)
-        begin = self._subscription.begin(plan, known.identity.simulated, known.hello.uptime_us)
+        plan = replace(self._plan, channels=handshake.channels)
+        begin = self._subscription.begin(
+            plan, handshake.identity.simulated, handshake.hello.uptime_us
+        )
         self._runner.start(begin, self._on_started, self._not_begun)
 
-    def keep(self) -> bool:
+    def do_due_work(self) -> bool:
         """Ask the unit for what is due now; whether anything was."""
         now_s = self._now()
-        if self._due_s is not None and now_s >= self._due_s and self._known is not None:
-            self.begin(self._known)
+        if self._due_s is not None and now_s >= self._due_s and self._handshake is not None:
+            self.begin(self._handshake)
         elif self._subscription.renewal_due(now_s):
             self._runner.start(self._subscription.renew(), self._renewed, self._not_renewed)
         else:
@@ -76,7 +78,7 @@ class StreamKeeper:
     def end(self) -> None:
         """The unit or the port is gone."""
         self._subscription.end()
-        self._known, self._due_s = None, None
+        self._handshake, self._due_s = None, None
         self._renewals_unanswered = 0
 
     def _not_begun(self, error: BaseException) -> None:
@@ -88,9 +90,9 @@ class StreamKeeper:
         else:
             self._on_refused(error)
 
-    def _renewed(self, known: bool) -> None:
+    def _renewed(self, is_known: bool) -> None:
         self._renewals_unanswered = 0
-        if not known:
+        if not is_known:
             self._on_reboot(forgotten_reason())
 
     def _not_renewed(self, error: BaseException) -> None:

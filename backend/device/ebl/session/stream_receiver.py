@@ -112,13 +112,13 @@ class StreamReceiver:
         )
 
     def _lost_by(self, lost_rows: int, late: bool) -> LostBy | None:
-        came_damaged = self._statistics.frames_bad != self._frames_bad
+        was_damaged = self._statistics.frames_bad != self._frames_bad
         self._frames_bad = self._statistics.frames_bad
         if lost_rows == 0:
             return None
         if late:
             return LostBy.MACHINE
-        return LostBy.LINE if came_damaged else LostBy.UNIT
+        return LostBy.LINE if was_damaged else LostBy.UNIT
 
     def counted(self, counts: StreamCountsEvent) -> bool:
         """The unit told its counts; False when they are of another subscription."""

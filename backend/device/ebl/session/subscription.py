@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from backend.device.ebl.session.frame_counts import Balance
-from backend.device.ebl.session.operation import Operation, ask, attempt, expect
+from backend.device.ebl.session.operation import Operation, attempt, expect, query
 from backend.device.ebl.session.stream_receiver import (
     LEASE_S,
     RENEW_S,
@@ -80,7 +80,7 @@ class Subscription:
         """
         # The stream carries 32 bits of unit time; the snapshot gives the other 32.
         first = bytes([plan.channels[0].id])
-        snapshot = yield from ask(StrSnapshotRequest(first), StrSnapshotResponse)
+        snapshot = yield from query(StrSnapshotRequest(first), StrSnapshotResponse)
         if snapshot.t_us + ROW_AGE_US_MAX < hello_us:
             raise UnitRestarted("The unit was restarted; asking who it is again.")
         self._lease_s = LEASE_SIMULATED_S if simulated else LEASE_S

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from backend.device.configuration import TrialStatus
-from backend.device.ebl.session.operation import Operation, ask
+from backend.device.ebl.session.operation import Operation, query
 from firmware_protocol._generated import (
     CfgStatusRequest,
     CfgStatusResponse,
@@ -15,14 +15,14 @@ from firmware_protocol.spelling import word_of
 
 def trial_status() -> Operation[TrialStatus]:
     """Ask the unit. Raises NoAnswer, DeviceRefused."""
-    status = yield from ask(CfgStatusRequest(), CfgStatusResponse)
+    status = yield from query(CfgStatusRequest(), CfgStatusResponse)
     return trial_status_of(status)
 
 
 def trial_status_of(status: CfgStatusResponse) -> TrialStatus:
     """The unit's answer in our words."""
-    known = status.rollback_cause in set(RollbackCause)
-    cause = word_of(RollbackCause(status.rollback_cause).name) if known else "unknown"
+    is_listed = status.rollback_cause in set(RollbackCause)
+    cause = word_of(RollbackCause(status.rollback_cause).name) if is_listed else "unknown"
     return TrialStatus(
         on_trial=status.state == ConfigState.PROVISIONAL,
         generation=status.generation,

@@ -15,17 +15,17 @@ Part = tuple[Ride, float, float]
 """A ride, and a window of it from and to, s after its start."""
 
 
-def settings_apart(config_of: ConfigOf, a: Part, b: Part) -> dict[str, Any]:
-    """The configurations in force where two windows begin, as the API tells them, and when they
+def settings_difference(config_of: ConfigOf, a: Part, b: Part) -> dict[str, Any]:
+    """The configurations in force where two windows begin, as in the API, and when they
     changed within; no difference unless both are known.
 
     A table is among `tables` if anything of it differs and both have it whole.
     """
     sides = [config_of(ride, from_s) for ride, from_s, _ in (a, b)]
-    known = [source == "ride" for _, source in sides]
-    told = [side_of(a, known[0]), side_of(b, known[1])]
-    answer: dict[str, Any] = {"a": told[0], "b": told[1], "differences": None, "tables": []}
-    if all(known):
+    are_known = [source == "ride" for _, source in sides]
+    views = [side_of(a, are_known[0]), side_of(b, are_known[1])]
+    answer: dict[str, Any] = {"a": views[0], "b": views[1], "differences": None, "tables": []}
+    if all(are_known):
         old, new = (
             {name: of_today(name, value) for name, value in config.items()} for config, _ in sides
         )
@@ -33,7 +33,7 @@ def settings_apart(config_of: ConfigOf, a: Part, b: Part) -> dict[str, Any]:
         answer["tables"] = [
             table
             for which in PARAMETERS_OF
-            if (table := tables_apart(old, new, which, answer["differences"]))
+            if (table := table_difference(old, new, which, answer["differences"]))
         ]
     return answer
 
@@ -66,7 +66,7 @@ def of_today(name: str, value: Any) -> Any:
     return value.lower() if isinstance(value, str) else value
 
 
-def tables_apart(
+def table_difference(
     old: Mapping[str, Any], new: Mapping[str, Any], which: str, changed: Sequence[Difference]
 ) -> dict[str, Any] | None:
     """One of the two tables of both sides with the rules that differ; None if nothing does."""

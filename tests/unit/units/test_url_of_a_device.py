@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from backend.errors import InvalidRequest
-from backend.units.addresses import check_asked
+from backend.units.addresses import check_url
 
 
 @pytest.mark.parametrize(
@@ -28,7 +28,7 @@ from backend.units.addresses import check_asked
 )
 def test_what_names_a_file_or_another_device_is_refused_for_its_url(url: str) -> None:
     with pytest.raises(InvalidRequest) as caught:
-        check_asked(url)
+        check_url(url)
 
     assert [fault.field for fault in caught.value.fields] == ["url"]
 
@@ -46,14 +46,14 @@ def test_what_names_a_file_or_another_device_is_refused_for_its_url(url: str) ->
     ],
 )
 def test_a_unit_is_none_of_these(url: str) -> None:
-    check_asked(url)
+    check_url(url)
 
 
 def test_a_link_to_a_pseudo_terminal_is_a_serial_port(tmp_path: Path) -> None:
     master, slave = os.openpty()
     (tmp_path / "bike").symlink_to(os.ttyname(slave))
 
-    check_asked(str(tmp_path / "bike"))
+    check_url(str(tmp_path / "bike"))
 
     os.close(master)
     os.close(slave)
@@ -63,4 +63,4 @@ def test_a_link_to_another_device_is_none(tmp_path: Path) -> None:
     (tmp_path / "bike").symlink_to("/dev/zero")
 
     with pytest.raises(InvalidRequest):
-        check_asked(str(tmp_path / "bike"))
+        check_url(str(tmp_path / "bike"))

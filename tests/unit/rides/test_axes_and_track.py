@@ -12,7 +12,7 @@ import pytest
 
 from backend.core.channels import ChannelSpec, Values
 from backend.errors import InvalidRequest
-from backend.rides.traces.axes import Axis, along
+from backend.rides.traces.axes import Axis, axis_positions
 from backend.rides.traces.trace import trace
 from backend.rides.traces.track import BENDS, EVEN_POINTS, track
 from tests.unit.rides.test_trace_is_exact import PlainReader
@@ -41,7 +41,7 @@ def stop_and_go() -> PlainReader:
 def test_motion_and_way_stand_while_the_bike_does() -> None:
     ride = stop_and_go()
 
-    moving, way = along(ride, "moving"), along(ride, "distance")
+    moving, way = axis_positions(ride, "moving"), axis_positions(ride, "distance")
 
     assert moving is not None
     assert way is not None
@@ -62,7 +62,7 @@ def test_every_bin_of_another_axis_has_the_extremes_of_its_rows(
 
     shown = trace(ride, ["rider_torque_nm"], *window, pixels=300, axis=axis)
 
-    place = along(ride, axis)
+    place = axis_positions(ride, axis)
     assert place is not None
     assert shown.x is not None
     x_first, x_last = shown.x
@@ -95,7 +95,7 @@ def test_a_sparse_channel_is_silent_only_where_it_is_for_long() -> None:
     speed[::100] = 25.0
     speed[20_000:23_000] = np.nan
 
-    place = along(ride_of({SPEED: speed}, None), "distance")
+    place = axis_positions(ride_of({SPEED: speed}, None), "distance")
 
     # From the first row without a sample to the next one with one, of rows 10 ms apart.
     assert place is not None
@@ -113,7 +113,7 @@ def test_what_a_log_filled_counts_as_long_as_its_samples_hold() -> None:
     speed = np.tile([36.0, np.nan, np.nan, np.nan], 2500)
     ride = Filled({SPEED: SPEED.to_counts(speed)})
 
-    moving, way = along(ride, "moving"), along(ride, "distance")
+    moving, way = axis_positions(ride, "moving"), axis_positions(ride, "distance")
     told = track(ride)
 
     assert moving is not None
@@ -126,7 +126,7 @@ def test_what_a_log_filled_counts_as_long_as_its_samples_hold() -> None:
 def test_a_ride_without_speed_has_time_only() -> None:
     ride = ride_of({TORQUE: np.ones(50)})
 
-    assert along(ride, "moving") is None
+    assert axis_positions(ride, "moving") is None
     with pytest.raises(InvalidRequest) as refused:
         trace(ride, axis="distance")
     assert refused.value.fields[0].code == "no_axis"
