@@ -64,7 +64,7 @@ from backend.store.schemas import SchemaFiles
 from backend.tuning.library.compare import Compare
 from backend.tuning.library.records import LibraryStore
 from backend.tuning.library.service import Library
-from backend.tuning.limit_proof import LimitProofMaker, ProvenRevisions, ProveLimits
+from backend.tuning.limit_proof import LimitProofMaker, ProveLimits, ProvenRevisions
 from backend.tuning.live_set import LiveTuning
 from backend.tuning.preview import Preview
 from backend.tuning.records import LimitProofStore, RevisionStore

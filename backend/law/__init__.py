@@ -2,10 +2,10 @@
 
 from backend.law.finding import Finding, LintReport
 from backend.law.gain import ENGINE, points, surface
+from backend.law.limit_claims import prove_limits
 from backend.law.lint_rules import lint
 from backend.law.market import Cutoff, cutoff_of
 from backend.law.mode_curves import CADENCE_RPM, HARD_PUSH_NM, ModeCurve, mode_curves
-from backend.law.prove_limits import prove_limits
 from backend.law.recorded_ride import STANDING_MS
 from backend.law.recorded_ride import recorded as recorded_ride
 from backend.law.ride_replay import (

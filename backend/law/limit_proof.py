@@ -18,7 +18,7 @@ NOT_COVERED = (
     "restart",
     "other_firmware",
 )
-"""What no proof about the law can hold: see `backend.law.prove_limits`."""
+"""What no proof about the law can hold: see `backend.law.limit_claims`."""
 
 
 @dataclass(frozen=True, slots=True)

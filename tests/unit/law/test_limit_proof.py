@@ -21,10 +21,10 @@ import pytest
 
 from backend.core.fuzzy_table import FuzzyTable
 from backend.errors import InvalidRequest
-from backend.law import prove_limits as method
+from backend.law import limit_claims as method
 from backend.law.corner_bounds import gain_most
+from backend.law.limit_claims import prove_limits
 from backend.law.limit_proof import LimitProof
-from backend.law.prove_limits import prove_limits
 from firmware_protocol.parameters import default_config
 from sim_device.firmware.python import law
 from tests import counts

@@ -123,9 +123,7 @@ def proposals(store: Store, request: pytest.FixtureRequest) -> Iterator[Proposal
     """A search as long as ever where the test is marked so, else one of 60 rides."""
     generations = GENERATIONS if request.node.get_closest_marker("long") else 2
     proofs = LimitProofMaker(LimitProofStore(store.database), "1.0.0")
-    made = Proposals(
-        store, lambda ride, t_s=0: (law_defaults(), "defaults"), proofs, generations
-    )
+    made = Proposals(store, lambda ride, t_s=0: (law_defaults(), "defaults"), proofs, generations)
     yield made
     made.close()
 

@@ -19,7 +19,7 @@ from backend.services import Services
 from backend.store import Store, open_store
 from backend.tuning.library.records import LibraryStore
 from backend.tuning.library.service import Library
-from backend.tuning.limit_proof import LimitProofMaker, ProvenRevisions, ProveLimits
+from backend.tuning.limit_proof import LimitProofMaker, ProveLimits, ProvenRevisions
 from backend.tuning.records import LimitProofStore, RevisionStore
 from backend.tuning.service import Tuning
 from backend.units.service import Devices

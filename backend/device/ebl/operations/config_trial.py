@@ -8,11 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from backend.device.configuration import NO_TRIAL, ConfigImage, Value
-from backend.device.ebl.operations.config_transaction import (
-    CommitUnanswered,
-    compare,
-    read_config,
-)
+from backend.device.ebl.operations.config_transaction import CommitUnanswered, compare, read_config
 from backend.device.ebl.session.operation import Operation, attempt, expect
 from backend.device.ebl.session.trial_status import trial_status
 from backend.errors import Conflict, LinkError, NoAnswer

@@ -13,13 +13,7 @@ from backend.device.ebl.operations.config_transaction import MESSAGE_OVERHEAD_BY
 from backend.device.ebl.operations.violations import unit_violations
 from backend.device.ebl.session.operation import Operation, attempt, query, query_all
 from backend.device.ebl.session.refusals import refused
-from backend.errors import (
-    AccessDenied,
-    FieldError,
-    LimitViolation,
-    NoAnswer,
-    PeerProtocolError,
-)
+from backend.errors import AccessDenied, FieldError, LimitViolation, NoAnswer, PeerProtocolError
 from firmware_protocol._generated import (
     IMAGE_LENGTH,
     MTU,
