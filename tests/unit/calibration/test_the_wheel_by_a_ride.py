@@ -9,9 +9,8 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from datetime import UTC, datetime
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -29,7 +28,7 @@ from backend.formats import ImportedRide, Outcome
 from backend.imports.service import Uploads
 from backend.law import law_defaults
 from backend.rides.rows import Window
-from backend.store import Store, open_store
+from backend.store import Store
 
 SPECS = {
     "speed_kmh": ChannelSpec("speed_kmh", "km/h", 0.01),
@@ -49,12 +48,6 @@ DEGREE_M = 111_132.0
 AT_S = np.arange(620.0)
 RIDING_MS = np.where((AT_S >= 10) & (AT_S <= 610), 6.0, 0.0)
 KNOWN = Known(mass_kg=100.0, mass_limit_kg=0.5, gravity_ms2=9.807, rise_limit_m=0.5)
-
-
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as opened:
-        yield opened
 
 
 def kept(

@@ -34,12 +34,6 @@ def read_here(path: Path, name: str) -> Outcome:
 
 
 @pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as opened:
-        yield opened
-
-
-@pytest.fixture
 def uploads(store: Store) -> Iterator[Uploads]:
     opened = Uploads(store, reader=read_here)
     yield opened

@@ -6,7 +6,6 @@ Method: the real store and the real child process; real recorded files too where
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -16,7 +15,7 @@ from backend.formats import Outcome
 from backend.imports.service import Uploads, UploadSettings
 from backend.rides.files import safe_name
 from backend.rides.service import Rides
-from backend.store import Store, open_store
+from backend.store import Store
 from tests.fakes.fit_file import START_S, commute, fit_file
 
 # Processes, compilers or hundreds of files: left out of `make test-fast`.
@@ -24,12 +23,6 @@ pytestmark = pytest.mark.slow
 
 RECORDED = Path(__file__).resolve().parents[4] / "shared" / "data" / "rides"
 SOUND = fit_file(commute(200))
-
-
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as opened:
-        yield opened
 
 
 @pytest.fixture

@@ -7,9 +7,7 @@ near the estimate is to the truth: tests/acceptance/test_the_same_road_again.py.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -26,7 +24,7 @@ from backend.law.rider_and_bike import RiderAndBike
 from backend.rides.replay import ride_again
 from backend.rides.replay.ride_again import RideAgain
 from backend.rides.replay.service import RideReplay
-from backend.store import Store, open_store
+from backend.store import Store
 from backend.tuning.preview import Preview
 from firmware_protocol._generated import CHANNELS, InputFlags
 from tests.fakes.known_roads import Outside, Ridden, road
@@ -60,12 +58,6 @@ def as_recorded(ridden: Ridden) -> dict[str, Values]:
     columns["motor_torque_demanded_nm"] = columns["motor_torque_nm"]
     del columns["distance_m"]
     return columns
-
-
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as opened:
-        yield opened
 
 
 def kept(store: Store, columns: dict[str, Values]) -> int:

@@ -7,8 +7,6 @@ nothing while a brake is on, a fault forbids torque or the torque reading is too
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -23,7 +21,7 @@ from backend.formats import ImportedRide, Outcome
 from backend.imports.service import Uploads
 from backend.law import law_defaults
 from backend.rides.replay.service import RideReplay
-from backend.store import Store, open_store
+from backend.store import Store
 from backend.tuning.preview import Preview
 from firmware_protocol._generated import CHANNELS, InputFlags, LimitFlags
 
@@ -50,12 +48,6 @@ DELIVERED_BY = ("motor_torque_nm", "motor_torque_demanded_nm")
 
 def config_of(ride: Ride, t_s: float = 0.0) -> tuple[dict[str, Any], str]:
     return law_defaults(), "defaults"
-
-
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as opened:
-        yield opened
 
 
 def replayed(store: Store, columns: dict[str, Values], **changes: Any) -> dict[str, Any]:

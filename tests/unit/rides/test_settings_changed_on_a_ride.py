@@ -7,9 +7,7 @@ by one configuration, the second by another; an answer for a part is that of a r
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -29,7 +27,7 @@ from backend.rides.replay.service import RideReplay
 from backend.rides.replay.why_ride import WhyRide
 from backend.rides.rows import Window
 from backend.rides.settings_in_force import all_through, unchanged
-from backend.store import Store, open_store
+from backend.store import Store
 from backend.tuning.preview import Preview
 from tests.unit.rides.test_recording import SETTINGS as RECORDING
 from tests.unit.rides.test_recording import blocks, riding
@@ -42,12 +40,6 @@ OLD, NEW, OTHER = 0x11, 0xFFFF_FFF0, 0x33
 WRAP_US = 1 << 32
 BEGAN_US = WRAP_US - 20_000_000
 """The unit's clock when it is ridden: its low 32 bits begin again after 20 s."""
-
-
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as opened:
-        yield opened
 
 
 @dataclass

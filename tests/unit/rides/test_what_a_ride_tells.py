@@ -6,26 +6,17 @@ parts are the ride's own summary.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from backend.core.ride import Ride
 from backend.law import law_defaults
 from backend.rides.questions import Insight
-from backend.store import Store, open_store
+from backend.store import Store
 from tests.unit.rides.test_why_a_moment_was_as_it_was import PUSHING, ROWS, config_of, kept
 
 RIDER_W = 20.0 * PUSHING["cadence_rpm"] * 2.0 * np.pi / 60.0
 PUSH = np.full(ROWS, 20.0)
-
-
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as opened:
-        yield opened
 
 
 def test_the_modes_come_to_the_whole_ride(store: Store) -> None:

@@ -6,9 +6,6 @@ table, so that each rule's energy is torque x speed x time by hand.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -16,17 +13,11 @@ from backend.core.ride import Ride
 from backend.errors import InvalidRequest
 from backend.law import law_defaults
 from backend.rides.insight.ledger import EnergyLedger
-from backend.store import Store, open_store
+from backend.store import Store
 from tests.unit.rides.test_why_a_moment_was_as_it_was import PUSHING, ROWS, config_of, kept
 
 POWER_W = 0.5 * PUSHING["motor_speed_rpm"] * 2.0 * np.pi / 60.0
 TOTAL_WH = POWER_W * ROWS * 0.01 / 3600.0
-
-
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as opened:
-        yield opened
 
 
 def test_each_mode_and_rule_has_its_own_part(store: Store) -> None:

@@ -7,8 +7,6 @@ where it was measured, and what was recorded after a break not explained by what
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -22,7 +20,7 @@ from backend.imports.service import Uploads
 from backend.law import law_defaults
 from backend.rides.replay.service import WARM_UP_S, warm_up_row
 from backend.rides.replay.why_ride import WhyRide, cuts_of
-from backend.store import Store, open_store
+from backend.store import Store
 from backend.tuning.why import WhySteady
 from firmware_protocol._generated import CHANNELS, InputFlags, LimitFlags
 
@@ -46,12 +44,6 @@ PUSHING = {
 }
 STATE = {"speed_kmh": 12.0, "torque_rate": 0.0, "rider_torque_nm": 20.0, "cadence_rpm": 50.0}
 STATE |= {"mode": 3, "held_s": 5.0}
-
-
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as opened:
-        yield opened
 
 
 def config_of(ride: Ride, t_s: float = 0.0) -> tuple[dict[str, Any], str]:
