@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 from backend.core.ride import Ride
-from backend.formats import ImportedRide, Outcome
+from backend.formats import ImportedRide
 from backend.formats.formats import read_file
 from backend.imports.service import Uploads
 from backend.imports.unit_logs import Collect
@@ -30,6 +30,7 @@ from backend.units.service import Devices
 from sim_device.lockstep import LockstepUnit
 from tests.fakes.server import eventually
 from tests.fakes.unit_link import UnitOpener
+from tests.fakes.uploading import read_here
 
 URL = "socket://unit:1"
 AWAY_S = 30.0
@@ -106,10 +107,6 @@ class Desk:
     def only_ride(self) -> Ride:
         (ride,) = self.store.rides.list().items
         return ride
-
-
-def read_here(path: Path, name: str) -> Outcome:
-    return read_file(name, path.read_bytes())
 
 
 @pytest.fixture

@@ -16,9 +16,7 @@ from pathlib import Path
 import pytest
 
 from backend.errors import Conflict, NotFound, SpindleError
-from backend.formats import Outcome
 from backend.formats.blocks import BLOCKS_SUFFIX
-from backend.formats.formats import read_file
 from backend.imports.service import Uploads
 from backend.imports.unit_logs import Collect, Download
 from backend.store import Store, open_store
@@ -27,6 +25,7 @@ from backend.units.service import Devices
 from sim_device.lockstep import LockstepUnit
 from tests.fakes.server import eventually
 from tests.fakes.unit_link import UnitOpener
+from tests.fakes.uploading import read_here
 
 URL = "socket://unit:1"
 RIDE_S = 120.0
@@ -96,10 +95,6 @@ class Shop:
             lambda: self.collect.get(self.device, log_id),
             lambda download: download.state in ("done", "failed"),
         )
-
-
-def read_here(path: Path, name: str) -> Outcome:
-    return read_file(name, path.read_bytes())
 
 
 @pytest.fixture
