@@ -39,6 +39,7 @@ NOW_S = 1_700_000_000.0
 # One parameter of every typed view that is not as the factory set it.
 OTHER = {
     "fuzzy_table_name": "another",
+    "second_table_name": "another",
     "assist_mode_at_start": 1,
     "torque_filter_s": 0.7,
     "pedal_stop_ms": 200,
@@ -438,6 +439,15 @@ def test_what_was_read_as_limits_can_be_written_back_as_it_is(bench: Bench) -> N
     assert bench.held == default_config() | {"market": "japan", "pedal_stop_ms": 200}
 
 
+def test_the_market_is_the_maker_s_and_not_changed_with_the_limits(bench: Bench) -> None:
+    limits = bench.tuning.read_part(bench.id, "limits").value
+
+    with pytest.raises(AccessDenied):
+        bench.tuning.write_part(bench.id, "limits", limits | {"market": "japan"}, "")
+
+    assert bench.held == default_config()
+
+
 def test_the_assist_modes_are_five_slots(bench: Bench) -> None:
     modes = bench.tuning.read_part(bench.id, "assist_modes").value
     modes["modes"][1] = {"name": "rain", "law": "fuzzy", "ratio": 0.75}
@@ -473,7 +483,9 @@ def test_calibration_and_limits_are_views_of_the_same_configuration(bench: Bench
     assert change.generation == 9
 
 
-@pytest.mark.parametrize("view", ["fuzzy_table", "assist_modes", "calibration", "limits"])
+@pytest.mark.parametrize(
+    "view", ["fuzzy_table", "second_fuzzy_table", "assist_modes", "calibration", "limits"]
+)
 def test_a_typed_view_can_be_tried_like_any_other_change(bench: Bench, view: str) -> None:
     value = bench.tuning.read_part(bench.id, view).value
     bench.unit.image = pack_image(default_config() | OTHER)
