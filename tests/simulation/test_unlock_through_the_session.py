@@ -14,7 +14,7 @@ from firmware_protocol.unlock_token import Token
 from sim_device.lockstep import LockstepUnit
 from tests.fakes.bench import Bench
 from tests.fakes.maker import Maker, challenge_of
-from tests.fakes.unit_link import LockstepAsUnit
+from tests.fakes.simulated_unit import LockstepAsUnit
 
 MAKER = Maker()
 RAISED: dict[str, Value] = {"assist_cutoff_kmh": 25.0}

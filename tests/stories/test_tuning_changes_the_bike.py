@@ -1,7 +1,7 @@
 """Goal: what a mechanic writes is what the unit does.
 
 The whole way is real: HTTP, the reader thread, the protocol, the unit's C. What must not be written
-is refused in tests/unit/tuning/test_tune.py, and by the firmware in tests/simulation.
+is refused in tests/unit/tuning, and by the firmware in tests/simulation.
 Expected gains are the thesis' table 4-2 at its own points, where the centroid is a known number.
 """
 

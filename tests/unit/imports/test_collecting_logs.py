@@ -24,6 +24,7 @@ from backend.units.inspection import Inspection
 from backend.units.service import Devices
 from sim_device.lockstep import LockstepUnit
 from tests.fakes.server import eventually
+from tests.fakes.simulated_unit import LockstepAsUnit
 from tests.fakes.unit_link import UnitOpener
 from tests.fakes.uploading import read_here
 
@@ -43,30 +44,24 @@ def memory_of_a_ride() -> tuple[bytes, bytes]:
     return unit.unit.flash(), unit.unit.log()
 
 
-class Cable:
+class Cable(LockstepAsUnit):
     """The unit behind a cable that breaks once, after so many bytes to the host."""
 
     def __init__(self, unit: LockstepUnit) -> None:
-        self.unit = unit
+        super().__init__(unit)
         self.carried = 0
         self.breaks_after: int | None = None
         self.broke = threading.Event()
         self.opener: UnitOpener
 
-    def receive(self, data: bytes) -> object:
-        return self.unit.send(data)
-
     def transmit(self) -> bytes:
-        data = self.unit.receive()
+        data = super().transmit()
         self.carried += len(data)
         if self.breaks_after is not None and self.carried > self.breaks_after:
             self.breaks_after = None
             self.opener.unplug()
             self.broke.set()
         return data
-
-    def advance(self, seconds: float) -> None:
-        self.unit.advance(seconds)
 
 
 @dataclass
