@@ -5,17 +5,12 @@ from __future__ import annotations
 import base64
 import hashlib
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
-from fastapi import FastAPI
-from fastapi.testclient import TestClient
-
-from backend.app import build_api
 from backend.formats import Outcome
 from backend.formats.formats import read_file
 from backend.imports.service import Uploads
-from backend.web.app import WebSettings
+from tests.fakes.api import api_with, client_of
 
 TUS = {"tus-resumable": "1.0.0"}
 CHUNK = TUS | {"content-type": "application/offset+octet-stream"}
@@ -24,12 +19,6 @@ CHUNK = TUS | {"content-type": "application/offset+octet-stream"}
 def read_here(path: Path, name: str) -> Outcome:
     """Reads a file in this process, not in a child."""
     return read_file(name, path.read_bytes())
-
-
-def uploads_api(uploads: Uploads) -> FastAPI:
-    """The application, of whose services uploads are there alone."""
-    services: Any = SimpleNamespace(uploads=uploads)
-    return build_api(WebSettings("0"), services)
 
 
 def described(**told: str) -> dict[str, str]:
@@ -49,9 +38,7 @@ class UploadDesk:
 
     def __init__(self, uploads: Uploads) -> None:
         self.uploads = uploads
-        self.client = TestClient(
-            uploads_api(uploads), base_url="http://localhost", raise_server_exceptions=False
-        )
+        self.client = client_of(api_with(uploads=uploads))
 
     def begin(self, length: int, **told: str) -> str:
         """The address of a new upload. told: as Upload-Metadata has it."""

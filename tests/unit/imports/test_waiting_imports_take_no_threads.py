@@ -18,7 +18,7 @@ from backend.formats import Outcome
 from backend.formats.outcome import rejected
 from backend.imports.service import Arrival, Uploads
 from backend.store import Store
-from tests.fakes.uploading import uploads_api
+from tests.fakes.api import api_with
 
 # A store for every test, or a crowd of requests: left out of `make test-fast`.
 pytestmark = pytest.mark.slow
@@ -45,7 +45,7 @@ def test_while_many_imports_wait_another_route_is_answered(store: Store) -> None
         return rejected("unknown_format", "No ride.")
 
     async def story(uploads: CountedUploads) -> tuple[list[str], list[str]]:
-        transport = httpx.ASGITransport(app=uploads_api(uploads))
+        transport = httpx.ASGITransport(app=api_with(uploads=uploads))
         async with httpx.AsyncClient(transport=transport, base_url="http://localhost") as client:
             sending = [
                 asyncio.create_task(

@@ -5,7 +5,7 @@ Method: the description of the API; that they refuse is in the story of the bike
 
 from __future__ import annotations
 
-from tests.fakes.description import description
+from tests.fakes.api import description
 
 UNDER_A_CONNECTION = "/devices/{device_id}/"
 
