@@ -6,8 +6,6 @@ gains are those of tables with one label in every cell, whose weighted average i
 
 from __future__ import annotations
 
-from typing import Any
-
 import pytest
 
 from backend.tuning.models.law import FuzzyTable
@@ -99,24 +97,3 @@ def test_a_table_the_unit_does_not_have_is_refused_by_name(
 
     assert response.status_code == 422
     assert [fault["field"] for fault in response.json()["errors"]] == ["table"]
-
-
-def test_what_the_unit_says_of_its_limits_is_what_the_linter_judges(
-    server: SpindleServer, device: str, unit: Unit
-) -> None:
-    limits = server.get(f"/devices/{device}/parts/limits")
-    assert (limits["market"], limits["effective_assist_cutoff_kmh"]) == ("eu_epac", 25.0)
-    assert unit.limits().effective_assist_cutoff_kmh == 25.0
-
-    def codes(market: str) -> set[str]:
-        question: dict[str, Any] = {
-            "fuzzy_table": server.get(f"/devices/{device}/parts/fuzzy_table"),
-            "assist_modes": server.get(f"/devices/{device}/parts/assist_modes"),
-            "limits": limits | {"market": market},
-        }
-        report = server.ask("POST", "/lint", json=question)
-        return {finding["code"] for kind in report.values() for finding in kind}
-
-    told = {"cutoff_above_market", "peak_above_market", "ratio_above_market"}
-    assert told <= codes("japan")
-    assert not told & codes("eu_epac")
