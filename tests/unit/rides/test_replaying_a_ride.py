@@ -13,20 +13,18 @@ import numpy as np
 import pytest
 
 from backend.core.assist_mode import AssistModes
-from backend.core.channels import ChannelSpec, Values
+from backend.core.channels import Values
 from backend.core.fuzzy_table import THESIS_TABLE
-from backend.core.ride import Ride, RideRows
+from backend.core.ride import Ride
 from backend.errors import InvalidRequest
-from backend.formats import ImportedRide, Outcome
-from backend.imports.service import Uploads
 from backend.law import law_defaults
 from backend.rides.replay.service import RideReplay
 from backend.store import Store
 from backend.tuning.preview import Preview
-from firmware_protocol._generated import CHANNELS, InputFlags, LimitFlags
+from firmware_protocol._generated import InputFlags, LimitFlags
+from tests.fakes.kept_rides import imported_ride
 
 ROWS, PERIOD_US = 1000, 10_000
-SPECS = {row.name: ChannelSpec(row.name, row.unit, float(row.scale)) for row in CHANNELS}
 PUSHING = {
     "speed_kmh": 12.0,
     "cadence_rpm": 60.0,
@@ -52,13 +50,7 @@ def config_of(ride: Ride, t_s: float = 0.0) -> tuple[dict[str, Any], str]:
 
 def replayed(store: Store, columns: dict[str, Values], **changes: Any) -> dict[str, Any]:
     """The answer for a ride of these channels, (ROWS,) each."""
-    specs = tuple(SPECS[name] for name in columns)
-    counts = {spec.name: spec.to_counts(columns[spec.name]).astype(np.int16) for spec in specs}
-    rows = RideRows(specs, np.arange(ROWS, dtype=np.int64) * PERIOD_US, counts)
-    outcome = Outcome("complete", (ImportedRide(1_700_000_000_000_000, PERIOD_US, rows),))
-    uploads = Uploads(store, reader=lambda path, name: outcome)
-    (ride_id,) = uploads.receive_file("a.csv", b"as it came").ride_ids
-    uploads.close()
+    ride_id = imported_ride(store, columns, PERIOD_US)
     return RideReplay(Preview(), config_of)(store.rides.reader(ride_id), **{**SPORT, **changes})
 
 

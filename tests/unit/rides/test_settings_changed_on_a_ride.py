@@ -29,9 +29,10 @@ from backend.rides.rows import Window
 from backend.rides.settings_in_force import all_through, unchanged
 from backend.store import Store
 from backend.tuning.preview import Preview
+from tests.fakes.kept_rides import recorded_ride
 from tests.unit.rides.test_recording import SETTINGS as RECORDING
 from tests.unit.rides.test_recording import blocks, riding
-from tests.unit.rides.test_why_a_moment_was_as_it_was import PERIOD_US, PUSHING, SPECS
+from tests.unit.rides.test_why_a_moment_was_as_it_was import PERIOD_US, PUSHING
 
 # A store for every test: left out of `make test-fast`.
 pytestmark = pytest.mark.slow
@@ -211,16 +212,10 @@ def config_of(ride: Ride, t_s: float = 0.0) -> tuple[dict[str, Any], str]:
 
 def kept(store: Store, first: int, second: int | None = None) -> int:
     """A ride by one configuration, and by a second one from its middle on."""
-    specs = tuple(SPECS[name] for name in STEADY)
-    columns = [spec.to_counts(np.full(ROWS, STEADY[spec.name])) for spec in specs]
-    context = RideContext(unit_key="ebl:SP-1", config_crc32=first, config_generation=4)
+    columns = {name: np.full(ROWS, value) for name, value in STEADY.items()}
     events = [] if second is None else [RideEvent(HALF_S, SETTINGS, second)]
-    rides = store.rides
-    ride_id = rides.start_live(specs, PERIOD_US, 1_700_000_000_000_000, context)
-    rows = np.stack(columns, axis=1).astype(np.int16)
-    rides.append_tail(ride_id, 0, rows, events).result()
-    rides.finish(ride_id)
-    return ride_id
+    context = {"unit_key": "ebl:SP-1", "config_crc32": first, "config_generation": 4}
+    return recorded_ride(store, columns, PERIOD_US, events=events, **context)
 
 
 def test_a_moment_is_explained_by_the_table_it_was_ridden_by(store: Store) -> None:

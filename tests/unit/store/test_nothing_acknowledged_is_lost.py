@@ -34,7 +34,6 @@ RECORDING = """
 import sys
 from backend.core.ride import RideContext
 from backend.store import open_store
-from tests.fakes.failing_disk import FailingDisk
 from tests.unit.store.ride_data import CHANNELS, PERIOD_US, STARTED_US, honest_ride
 
 store = open_store(sys.argv[1], sys.argv[2])
