@@ -10,10 +10,11 @@ from typing import Any
 import numpy as np
 
 from backend.core.channels import ChannelSpec, Values
-from backend.core.ride import RideContext, RideRows
+from backend.core.ride import Ride, RideContext, RideRows
 from backend.core.ride_events import RideEvent
 from backend.formats import ImportedRide, Outcome
 from backend.imports.service import Uploads
+from backend.law import law_defaults
 from backend.store import Store
 from firmware_protocol._generated import CHANNELS
 
@@ -64,6 +65,11 @@ def imported_ride(
     (ride_id,) = uploads.receive_file("a.csv", as_it_came).ride_ids
     uploads.close()
     return ride_id
+
+
+def config_of(ride: Ride, t_s: float = 0.0) -> tuple[dict[str, Any], str]:
+    """Of a ride whose configuration nobody kept: the law's own."""
+    return law_defaults(), "defaults"
 
 
 def values_of(ride: ImportedRide, name: str) -> Values:

@@ -6,8 +6,6 @@ sends them.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -28,13 +26,6 @@ SETUP: dict[str, Any] = {
     "loads_kg": list(LOADS_KG),
     "full_scale_nm": 80.0,
 }
-
-
-@pytest.fixture
-def bench(tmp_path: Path) -> Iterator[Workshop]:
-    workshop = Workshop(tmp_path)
-    yield workshop
-    workshop.stop()
 
 
 @pytest.fixture

@@ -22,7 +22,7 @@ from backend.store.objects import Disk
 from backend.store.upkeep.check import check_store
 from backend.units.records import UnitStore
 from tests.fakes.failing_disk import FailingDisk
-from tests.unit.conftest import OpenStore
+from tests.unit.conftest import OpenStore, urls
 from tests.unit.store.test_a_backup_is_a_store import unpacked
 
 UNIT = "ebl:SP-1"
@@ -30,10 +30,6 @@ UNIT = "ebl:SP-1"
 
 def same(body: Any) -> Any:
     return body
-
-
-def urls(folder: Path, database: str = "spindle.db") -> tuple[str, str]:
-    return f"sqlite:///{folder}/{database}", (folder / "objects").as_uri()
 
 
 def captured(store: Store, job_id: int, count: int = 3) -> None:

@@ -133,6 +133,10 @@ def original(shop: Shop, download: Download) -> bytes:
     return shop.store.objects.local_path(key).read_bytes()
 
 
+def full_disk(*_: object, **__: object) -> None:
+    raise OSError(28, "No space left on device")
+
+
 @pytest.mark.slow
 def test_a_log_becomes_a_ride_and_is_confirmed(shop: Shop) -> None:
     (log,) = shop.collect.logs(shop.device).items
@@ -199,9 +203,6 @@ def test_what_is_no_beginning_of_the_log_is_thrown_away(shop: Shop, found: bytes
 def test_the_unit_is_not_told_before_the_ride_is_stored(
     shop: Shop, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def full_disk(*_: object, **__: object) -> None:
-        raise OSError(28, "No space left on device")
-
     with monkeypatch.context() as patched:
         patched.setattr(shop.store.objects, "publish", full_disk)
         failed = shop.fetch()
@@ -297,9 +298,6 @@ def test_what_was_fetched_of_a_log_that_is_gone_becomes_a_ride(shop: Shop, suffi
 def test_a_beginning_the_store_refuses_stays_on_the_disk(
     shop: Shop, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def full_disk(*_: object, **__: object) -> None:
-        raise OSError(28, "No space left on device")
-
     gone = part_of(shop).with_name(f"{shop.serial_number}-00000001-9-0badcafe.part")
     gone.write_bytes(flash_bytes(shop))
     with monkeypatch.context() as patched:

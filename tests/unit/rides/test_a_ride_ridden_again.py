@@ -15,7 +15,6 @@ import pytest
 
 from backend.core.assist_mode import AssistModes
 from backend.core.channels import Values
-from backend.core.ride import Ride
 from backend.errors import InvalidRequest, RequestRefused
 from backend.law import law_defaults
 from backend.law.rider_and_bike import RiderAndBike
@@ -25,7 +24,7 @@ from backend.rides.replay.service import RideReplay
 from backend.store import Store
 from backend.tuning.preview import Preview
 from firmware_protocol._generated import InputFlags
-from tests.fakes.kept_rides import imported_ride
+from tests.fakes.kept_rides import config_of, imported_ride
 from tests.fakes.known_roads import Outside, Ridden, road
 
 pytestmark = pytest.mark.slow
@@ -66,10 +65,6 @@ def kept(store: Store, columns: dict[str, Values]) -> int:
 def again(store: Store, columns: dict[str, Values], **question: Any) -> dict[str, Any]:
     """The estimate for a ride of these channels, (n,) each."""
     return RideAgain(store, config_of)(kept(store, columns), **question)
-
-
-def config_of(ride: Ride, t_s: float = 0.0) -> tuple[dict[str, Any], str]:
-    return law_defaults(), "defaults"
 
 
 def distance_km(columns: dict[str, Values]) -> float:

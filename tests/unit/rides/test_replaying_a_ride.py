@@ -15,14 +15,13 @@ import pytest
 from backend.core.assist_mode import AssistModes
 from backend.core.channels import Values
 from backend.core.fuzzy_table import THESIS_TABLE
-from backend.core.ride import Ride
 from backend.errors import InvalidRequest
 from backend.law import law_defaults
 from backend.rides.replay.service import RideReplay
 from backend.store import Store
 from backend.tuning.preview import Preview
 from firmware_protocol._generated import InputFlags, LimitFlags
-from tests.fakes.kept_rides import imported_ride
+from tests.fakes.kept_rides import config_of, imported_ride
 
 ROWS, PERIOD_US = 1000, 10_000
 PUSHING = {
@@ -42,10 +41,6 @@ SPORT = {"assist_modes": None, "fuzzy_table": None}
 HELD = slice(500, 700)
 DELIVERED_BY = ("motor_torque_nm", "motor_torque_demanded_nm")
 """Channels of a ride whose motor torque is what the motor gave."""
-
-
-def config_of(ride: Ride, t_s: float = 0.0) -> tuple[dict[str, Any], str]:
-    return law_defaults(), "defaults"
 
 
 def replayed(store: Store, columns: dict[str, Values], **changes: Any) -> dict[str, Any]:
