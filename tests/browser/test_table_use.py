@@ -14,12 +14,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-from playwright.sync_api import Page, Route, expect
+from playwright.sync_api import Route, expect
 
 from backend.store import open_store
 from tests.browser.conftest import OpenDesk
-from tests.browser.desk import Desk, sideways
+from tests.browser.desk import sideways
 from tests.browser.judged import JUDGE
+from tests.browser.test_tune_page import open_tune
 from tests.fakes.kept_rides import recorded_ride
 from tests.fakes.server import ServerHere, SpindleServer
 
@@ -70,12 +71,6 @@ def shop(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
     with ServerHere(data, UNIT) as running:
         running.ready_device()
         yield running
-
-
-def open_tune(desk: Desk, address: str = "/tune") -> Page:
-    page = desk.open(address)
-    page.wait_for_selector("[data-testid=surface][data-draws]")
-    return page
 
 
 def test_the_grid_tells_how_much_of_the_time_each_column_acted(
