@@ -1,8 +1,11 @@
-"""Goal: whatever code a refusal carries, a Chinese reader is told in Chinese what it means."""
+"""Goal: whatever code a refusal carries, and whatever a unit's state, a Chinese reader is told in
+Chinese what it means and why it is so.
+"""
 
 from __future__ import annotations
 
 import importlib
+import inspect
 import pkgutil
 import re
 from collections.abc import Iterator
@@ -11,6 +14,10 @@ from pathlib import Path
 import pytest
 
 import backend
+from backend.device.ebl.session import reasons
+from backend.device.ebl.session.reasons import port_reason
+from backend.device.link import trouble
+from backend.device.states import code_of
 from backend.errors import SpindleError
 from backend.web.problem import CODE_OF_STATUS
 from firmware_protocol._generated import Status
@@ -43,3 +50,21 @@ def test_a_code_has_chinese_words(code: str) -> None:
     refusals = WORDS[WORDS.index("const refusal") : WORDS.index("const fault")]
 
     assert re.search(rf"^  {code}:", refusals, re.MULTILINE)
+
+
+OURS = set(re.findall(r'"([a-z_]+)"\s*,?\s*\)', inspect.getsource(reasons)))
+PORTS = set(re.findall(r'code="([a-z_]+)"', inspect.getsource(trouble)))
+
+
+@pytest.mark.parametrize("code", sorted(OURS | PORTS | {"link"}))
+def test_a_reason_has_chinese_words(code: str) -> None:
+    told = WORDS[WORDS.index("const reason") :]
+
+    assert re.search(rf"^  {code}:", told, re.MULTILINE)
+
+
+def test_every_sentence_carries_its_code_and_the_port_s_own() -> None:
+    assert {"ready", "silent", "restarted", "nobody", "read_only"} <= OURS
+    absent = port_reason(trouble.cannot_open("COM3", FileNotFoundError(2, "gone")))
+    assert (code_of(absent), absent[:4]) == ("port_absent", "COM3")
+    assert code_of("a sentence of somebody else") == ""
