@@ -50,7 +50,7 @@ OPERATIONS: dict[Permission | Anyone, str] = {
     "get_last_known list_revisions since_revision why_of_device get_live get_part "
     "list_calibrations get_calibration_job "
     "get_calibration_reading get_calibration_certificate get_calibration_certificate_pdf "
-    "sensor_drift certify live",
+    "sensor_drift prove_limits live",
     P.CHANGE_BIKES: "add_device remove_device clear_faults mark_moment erase_log "
     "start_log_download patch_config confirm_config rollback_config set_live end_live "
     "put_part",

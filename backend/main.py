@@ -64,10 +64,10 @@ from backend.store.schemas import SchemaFiles
 from backend.tuning.library.compare import Compare
 from backend.tuning.library.records import LibraryStore
 from backend.tuning.library.service import Library
-from backend.tuning.limit_proof import CertifiedRevisions, Certify, KeptCertificates
+from backend.tuning.limit_proof import ProveLimits, ProvenRevisions, StoredLimitProofs
 from backend.tuning.live_set import LiveTuning
 from backend.tuning.preview import Preview
-from backend.tuning.records import CertificateStore, RevisionStore
+from backend.tuning.records import LimitProofStore, RevisionStore
 from backend.tuning.service import Tuning
 from backend.tuning.why import WhySteady
 from backend.units.dashboard import Dashboards
@@ -107,7 +107,7 @@ def open_services(
         units = UnitStore(store.database)
         last_seen = closing.enter_context(contextlib.closing(LastSeen(units)))
         devices = make_devices(settings, units, last_seen, families, opener)
-        revisions, certificates = make_revisions(store)
+        revisions, proofs = make_revisions(store)
         tuning = Tuning(devices, revisions)
         memory = UnitMemory(devices, revisions, units, tuning.note_trial_end)
         closing.callback(memory.close)
@@ -128,7 +128,7 @@ def open_services(
         open_units(settings, devices)
         replay = RideReplay(Preview(), memory.ride_config)
         library, inspection = Library(LibraryStore(store.database)), Inspection(devices)
-        proposals = Proposals(store, memory.ride_config, certificates)
+        proposals = Proposals(store, memory.ride_config, proofs)
         closing.callback(proposals.close)
         yield Services(
             store=StoreService(store, __version__),
@@ -146,7 +146,7 @@ def open_services(
             preview=Preview(),
             library=library,
             compare=Compare(library, tuning),
-            certify=Certify(certificates, devices, tuning, library),
+            prove_limits=ProveLimits(proofs, devices, tuning, library),
             rides=Rides(store, replay, devices.unit_at, recorder.running),
             home=RiderHomeService(store),
             ride_again=RideAgain(store, memory.ride_config),
@@ -166,10 +166,10 @@ def open_services(
         )
 
 
-def make_revisions(store: Store) -> tuple[CertifiedRevisions, KeptCertificates]:
+def make_revisions(store: Store) -> tuple[ProvenRevisions, StoredLimitProofs]:
     """Every unit's configurations, each with the proof that it keeps the limits."""
-    certificates = KeptCertificates(CertificateStore(store.database), __version__)
-    return CertifiedRevisions(RevisionStore(store.database), certificates), certificates
+    proofs = StoredLimitProofs(LimitProofStore(store.database), __version__)
+    return ProvenRevisions(RevisionStore(store.database), proofs), proofs
 
 
 def make_health(devices: Devices, recorder: Recorder, store: Store) -> HealthCheck:

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from backend.server.health import HealthCheck
     from backend.tuning.library.compare import Compare
     from backend.tuning.library.service import Library
-    from backend.tuning.limit_proof import Certify
+    from backend.tuning.limit_proof import ProveLimits
     from backend.tuning.live_set import LiveTuning
     from backend.tuning.preview import Preview
     from backend.tuning.service import Tuning
@@ -59,7 +59,7 @@ class Services:
     preview: Preview
     library: Library
     compare: Compare
-    certify: Certify
+    prove_limits: ProveLimits
     rides: Rides
     home: RiderHomeService
     ride_again: RideAgain

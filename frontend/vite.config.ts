@@ -9,37 +9,39 @@ const server = process.env.SPINDLE_ORIGIN ?? 'http://127.0.0.1:8750'
 // worse than they save.
 const MOST = [
   'api/(?!origin_refused|pair_of_rides|people_server|upload)',
-  'context/(?!KeyList|key_words)',
-  'device/(?!FaultMoment|fault_moment|moment_)|stream/(?!polled)|ui|units',
+  'context/(?!KeyList|words)',
+  'device/(?!FaultMoment|fault_moment|words)|stream/(?!polled)|ui|units',
   'charts/(traces/plotly\\.ts|plot_axis\\.ts|[Ss]park)',
   'config/(config_draft|drafts|elements|kept_drafts|limits|page_draft|parameter_text)',
   'config/(ratchet|trial|two_tables)',
-  'i18n/(?!zh)',
+  'i18n',
 ]
 // What Tune shows on request.
 const LATER = ['[Rr]escale', 'Scale', 'surface/(between|box|solid|words|Slice|Surface[MSV])']
-const REVIEW = ['ReviewDialog', 'review_', 'TokenSteps', 'UnlockPanel', 'Write', 'write_']
-// Words of another language come apart from their page: only who reads them fetches them.
-const chunk = (name: string, pattern: string) => ({
-  name,
-  test: new RegExp(`^(?!.*words_zh).*src/${pattern}`),
-})
+const OTHER_RIDES = ['ride/', 'insight/', 'comparison/', 'replay/', 'logbook/(ManyRides|Standing)']
+const REVIEW = ['ReviewDialog', 'review_', 'words', 'TokenSteps', 'UnlockPanel', 'Write', 'write_']
+const chunk = (name: string, pattern: string) => ({ name, test: new RegExp(`src/${pattern}`) })
+// Catalogues of another language are files of their own: only who reads them fetches them.
+const chunkName = ({ moduleIds }: { moduleIds: string[] }) =>
+  moduleIds.some((id) => id.includes('/messages/zh/'))
+    ? 'assets/zh-[name]-[hash].js'
+    : 'assets/[name]-[hash].js'
 const GROUPS = [
   chunk('unit', `shared/(${MOST.join('|')})`),
   chunk('fields', 'shared/(fields/(?!NumbersF)|config/ParameterForm)'),
-  chunk('moment', 'shared/device/(FaultMoment|fault_moment|moment_)'),
+  chunk('moment', 'shared/device/(FaultMoment|fault_moment|words)'),
   chunk('traces', 'shared/charts/traces/(Traces|SeriesT|ZoomB|trace_line|trace_window|ride_view)'),
   chunk('apart', 'shared/config/(SettingsApart|SmallTable)'),
-  chunk('rides', 'features/rides/(?!ride/|insight/|compare/|table/|home/(ManyRides|Standing))'),
-  chunk('try', 'features/try/(?!proposals)'),
+  chunk('rides', `features/(imports/(?!Table|table)|rides/(?!${OTHER_RIDES.join('|')}))`),
+  chunk('replay', 'features/rides/replay/(?!proposals)'),
   chunk('ride', 'features/rides/ride/(?!from_file/)'),
-  chunk('compare', 'features/rides/compare/'),
+  chunk('comparison', 'features/rides/comparison/'),
   chunk('insight', 'features/rides/insight'),
   chunk('service', 'features/service/(?!Guide|OnSheet|on_sheet|Restore|restored)'),
-  chunk('settings', 'features/settings/(?!people)'),
-  chunk('review', `shared/(certificate|config/(${REVIEW.join('|')}))`),
-  chunk('config', 'shared/(config/(?!DraftNotes|draft_words|ParameterForm)|lint)'),
-  chunk('tune', `features/tune/(?!${LATER.join('|')})`),
+  chunk('settings', 'features/(settings|people/(People|Keys))'),
+  chunk('review', `shared/(limit_proof|config/(${REVIEW.join('|')}))`),
+  chunk('config', 'shared/(config/(?!DraftNotes|draft_words|words|ParameterForm)|lint)'),
+  chunk('tune', `features/tuning/table/(?!${LATER.join('|')})`),
 ]
 
 export default defineConfig({
@@ -51,17 +53,21 @@ export default defineConfig({
     alias: {
       $shared: folder('./src/shared'),
       $generated: folder('./src/generated'),
+      $messages: folder('./messages'),
+      // Tests run in Node and would otherwise get the client for Node.
+      'tus-js-client': folder('./node_modules/tus-js-client/lib.esm/browser/index.js'),
       // plotly's core imports the style sheet of a map engine that we never draw with.
       'maplibre-gl/dist/maplibre-gl.css': folder('./src/shared/charts/traces/no_map.css'),
     },
     // Components run in the tests' DOM, not on a server.
     conditions: process.env.VITEST ? ['browser'] : undefined,
   },
+  json: { namedExports: false },
   build: {
     target: 'es2022',
     chunkSizeWarningLimit: 1500,
     modulePreload: { polyfill: false },
-    rolldownOptions: { output: { codeSplitting: { groups: GROUPS } } },
+    rolldownOptions: { output: { chunkFileNames: chunkName, codeSplitting: { groups: GROUPS } } },
   },
   server: {
     host: '127.0.0.1',

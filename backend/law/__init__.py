@@ -1,11 +1,11 @@
-"""The only door from the backend to the unit's C law: surface, lint, certificate, replay, twin."""
+"""The only door from the backend to the unit's C law: surface, lint, limit proof, replay, twin."""
 
-from backend.law.certificate import certify
 from backend.law.finding import Finding, LintReport
 from backend.law.gain import ENGINE, points, surface
 from backend.law.lint_rules import lint
 from backend.law.market import Cutoff, cutoff_of
 from backend.law.mode_curves import CADENCE_RPM, HARD_PUSH_NM, ModeCurve, mode_curves
+from backend.law.prove_limits import prove_limits
 from backend.law.recorded_ride import STANDING_MS
 from backend.law.recorded_ride import recorded as recorded_ride
 from backend.law.ride_replay import (
@@ -48,7 +48,6 @@ __all__ = [
     "TorqueSurface",
     "Totals",
     "Why",
-    "certify",
     "curves_of",
     "curves_of_record",
     "cutoff_of",
@@ -62,6 +61,7 @@ __all__ = [
     "places_km",
     "points",
     "power_w_mean",
+    "prove_limits",
     "raw_counts_of",
     "recorded_ride",
     "replay",

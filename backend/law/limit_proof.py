@@ -1,4 +1,4 @@
-"""A certificate: what is proven of a configuration on a firmware, with the bound of each proof."""
+"""A limit proof: what is proven of a configuration on a firmware, with the bound of each proof."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ NOT_COVERED = (
     "restart",
     "other_firmware",
 )
-"""What no proof about the law can hold: see `backend.law.certificate`."""
+"""What no proof about the law can hold: see `backend.law.prove_limits`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +74,7 @@ class Cell:
 
 
 @dataclass(frozen=True, slots=True)
-class Certificate:
+class LimitProof:
     """Of one configuration, for one firmware, by one version of the method.
 
     sha256: of all that it says and is about. table_sha256: of both fuzzy tables. market_sha256: of

@@ -7,8 +7,7 @@ from typing import Annotated, Any, cast
 from fastapi import APIRouter
 
 from backend.law.finding import LintReport
-from backend.tuning.limit_proof import Certified, Certify
-from backend.tuning.models.certificate import Certificate, CertificateRequest
+from backend.tuning.limit_proof import ProofSubject, ProveLimits
 from backend.tuning.models.curves import (
     ModeCurves,
     ModeCurvesRequest,
@@ -22,6 +21,7 @@ from backend.tuning.models.law import (
     Surface,
     SurfaceRequest,
 )
+from backend.tuning.models.limit_proof import LimitProof, LimitProofRequest
 from backend.tuning.models.why import Why, WhyRequest
 from backend.tuning.preview import Preview
 from backend.tuning.why import WhySteady
@@ -29,7 +29,7 @@ from backend.web.problem import refusals
 from backend.web.services import provided
 
 router = APIRouter(tags=["law"], responses=refusals())
-TheCertify = Annotated[Certify, provided("certify")]
+TheProveLimits = Annotated[ProveLimits, provided("prove_limits")]
 ThePreview = Annotated[Preview, provided("preview")]
 TheWhySteady = Annotated[WhySteady, provided("why_steady")]
 
@@ -78,15 +78,15 @@ def lint_table(body: LintRequest, preview: ThePreview) -> Any:
 
 @router.post(
     "/certificates",
-    operation_id="certify",
-    response_model=Certificate,
+    operation_id="prove_limits",
+    response_model=LimitProof,
     responses=refusals(404, 409, 503, 504),
 )
-def certify(body: CertificateRequest, certifier: TheCertify) -> Any:
+def prove_limits(body: LimitProofRequest, prove: TheProveLimits) -> Any:
     """What is proven of every ride with a configuration, against the law of its market."""
     parameters = cast("dict[str, Any]", body.parameters)
-    asked = Certified(body.device_id, body.revision, body.library, body.changes(), parameters)
-    return certifier(asked)
+    asked = ProofSubject(body.device_id, body.revision, body.library, body.changes(), parameters)
+    return prove(asked)
 
 
 @router.post("/why", operation_id="why_steady", response_model=Why)

@@ -1,6 +1,6 @@
-"""Certificates: what is proven of a configuration before it is written, and kept with it after.
+"""Limit proofs: what is proven of a configuration before it is written, and kept with it after.
 
-A certificate follows from the configuration, the method and the firmware whose C is in this
+A limit proof follows from the configuration, the method and the firmware whose C is in this
 process. It is worked out whenever it is asked for, and kept as it was first made.
 """
 
@@ -15,7 +15,7 @@ from backend import law
 from backend.core.revision import Revision, RevisionLog
 from backend.device.capability import Capability
 from backend.errors import FieldError, InvalidRequest, NotFound, SpindleError
-from backend.law.limit_proof import Certificate
+from backend.law.limit_proof import LimitProof
 from backend.tuning.library.service import Library
 from backend.tuning.preview import changed_config
 from backend.tuning.service import Tuning
@@ -25,16 +25,16 @@ LOG = logging.getLogger(__name__)
 OTHER_FIRMWARE = "other_firmware"
 
 
-class Certificates(Protocol):
-    """Where certificates are kept; tuning.records has one."""
+class LimitProofs(Protocol):
+    """Where limit proofs are stored; tuning.records has one."""
 
-    def keep(self, made: Certificate) -> int:
+    def keep(self, made: LimitProof) -> int:
         """Since when it is kept, Unix microseconds. Raises StoreError."""
         ...
 
 
 @dataclass(frozen=True)
-class Certified:
+class ProofSubject:
     """Of what: a unit (`revision` of it, or what it has), an entry of the library, or neither of
     them and so the law's defaults; and what takes the place of their values.
 
@@ -48,53 +48,53 @@ class Certified:
     parameters: Mapping[str, Any] = field(default_factory=dict)
 
 
-class KeptCertificates:
-    """Makes certificates and keeps them. For any thread. firmware_version: of the C in here."""
+class StoredLimitProofs:
+    """Makes limit proofs and stores them. For any thread. firmware_version: of the C in here."""
 
-    def __init__(self, certificates: Certificates, firmware_version: str) -> None:
-        self._certificates = certificates
+    def __init__(self, proofs: LimitProofs, firmware_version: str) -> None:
+        self._proofs = proofs
         self._firmware_version = firmware_version
 
-    def of(self, config: Mapping[str, Any]) -> Certificate:
+    def of(self, config: Mapping[str, Any]) -> LimitProof:
         """Of a configuration by registry name. Raises InvalidRequest, StoreError."""
-        made = law.certify(config, self._firmware_version)
-        return replace(made, created_us=self._certificates.keep(made))
+        made = law.prove_limits(config, self._firmware_version)
+        return replace(made, created_us=self._proofs.keep(made))
 
 
-class CertifiedRevisions:
-    """A log of revisions that keeps a certificate with each; otherwise as the log it stands for."""
+class ProvenRevisions:
+    """A log of revisions that keeps a limit proof with each; otherwise as the log it stands for."""
 
-    def __init__(self, revisions: RevisionLog, certificates: KeptCertificates) -> None:
+    def __init__(self, revisions: RevisionLog, proofs: StoredLimitProofs) -> None:
         self._revisions = revisions
-        self._certificates = certificates
+        self._proofs = proofs
         self.list = revisions.list
 
     def append(
         self, unit_key: str, parameters: Mapping[str, Any], *rest: Any, **named: Any
     ) -> Revision:
-        """As RevisionLog. A certificate that cannot be kept is told in the log; it can be made
+        """As RevisionLog. A limit proof that cannot be kept is told in the log; it can be made
         at any time."""
         added = self._revisions.append(unit_key, parameters, *rest, **named)
         if has_law(parameters):
             try:
-                self._certificates.of(parameters)
+                self._proofs.of(parameters)
             except SpindleError as error:
-                LOG.warning("%s: no certificate was kept: %s", unit_key, error.message)
+                LOG.warning("%s: no limit proof was kept: %s", unit_key, error.message)
         return added
 
 
-class Certify:
-    """Certificates of what there is and of what might be written. From any thread."""
+class ProveLimits:
+    """Limit proofs of what there is and of what might be written. From any thread."""
 
     def __init__(
-        self, kept: KeptCertificates, devices: Devices, tuning: Tuning, library: Library
+        self, kept: StoredLimitProofs, devices: Devices, tuning: Tuning, library: Library
     ) -> None:
         self._kept = kept
         self._devices = devices
         self._tuning = tuning
         self._library = library
 
-    def __call__(self, asked: Certified) -> Certificate:
+    def __call__(self, asked: ProofSubject) -> LimitProof:
         """Raises InvalidRequest for what no unit takes, NotFound, NoAnswer, CapabilityMissing."""
         if asked.device_id is not None and asked.library is not None:
             message = "Name a unit or an entry of the library, not both."
@@ -112,7 +112,7 @@ class Certify:
         runs = identity.firmware_version if identity else None
         return made if runs == made.firmware_version else replace(made, unproven=OTHER_FIRMWARE)
 
-    def _base(self, asked: Certified) -> dict[str, Any]:
+    def _base(self, asked: ProofSubject) -> dict[str, Any]:
         defaults = law.law_defaults()
         if asked.library is not None:
             document = self._library.entry(asked.library).document

@@ -14,7 +14,7 @@ from sqlalchemy import Connection, Row, Select, insert, select, update
 from backend.core.author import proof_of
 from backend.core.canonical_json import sha256_of
 from backend.core.revision import Revision
-from backend.law.limit_proof import Certificate
+from backend.law.limit_proof import LimitProof
 from backend.store.bikes import known_unit
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database
@@ -103,18 +103,18 @@ def revision_from(row: Row[Any]) -> Revision:
     )
 
 
-class CertificateStore:
+class LimitProofStore:
     """By the hash of a configuration, the version of the method and the firmware."""
 
     def __init__(self, database: Database) -> None:
         self._database = database
 
-    def keep(self, made: Certificate) -> int:
+    def keep(self, made: LimitProof) -> int:
         """Keep what was just made unless it is known; since when it is known, Unix microseconds.
 
         One that was worked out otherwise takes the place of what was there. Raises StoreError.
         """
-        row = t.certificate.c
+        row = t.limit_proof.c
         mine = (
             (row.config_sha256 == made.config_sha256)
             & (row.method == made.method)
@@ -133,10 +133,10 @@ class CertificateStore:
             now_us = time.time_ns() // 1000
             said = {"sha256": made.sha256, "body": made.body(), "created_us": now_us}
             if found is not None:
-                connection.execute(update(t.certificate).where(mine).values(**said))
+                connection.execute(update(t.limit_proof).where(mine).values(**said))
                 return now_us
             connection.execute(
-                insert(t.certificate).values(
+                insert(t.limit_proof).values(
                     config_sha256=made.config_sha256,
                     method=made.method,
                     firmware_version=made.firmware_version,

@@ -13,7 +13,7 @@ const lines = files.filter((name) => name.startsWith('plotly_lines'))
 // uPlot's chunk is named after whatever module the bundler met first; its class names give it away.
 const strips = files.filter((name) => readFileSync(`${folder}/${name}`, 'utf8').includes('u-over'))
 const charts = [...lines, ...strips]
-const chinese = files.filter((name) => /^zh(_codes)?-/.test(name))
+const chinese = files.filter((name) => /^zh-(pages|codes)-/.test(name))
 const pages = files.filter((name) => /^\w+Page-.*js$/.test(name))
 
 // What the page names itself, and then what those files import before they run.
@@ -59,7 +59,7 @@ describe.skipIf(!built)('the built pages', () => {
   it('carry no other language for who reads English', () => {
     const foreign = files.filter(
       (name) =>
-        !/^(zh|zh_codes|(\w+_)?words_zh|plotly_lines)-/.test(name) &&
+        !/^(zh|plotly_lines)-/.test(name) &&
         /[\u4e00-\u9fff]{4}/.test(readFileSync(`${folder}/${name}`, 'utf8')),
     )
 

@@ -23,15 +23,22 @@ it.each([
   ['context', '../device/fault_text'],
   ['device', '../config/config_draft.svelte'],
   ['device', '$shared/config/config_draft.svelte'],
-  ['config', '../../features/tune/table'],
+  ['config', '../../features/tuning/table/table'],
 ])('%s does not import %s', async (folder, imported) => {
   expect(await complaints(`src/shared/${folder}/planted.ts`, imported)).toEqual([
     'no-restricted-imports',
   ])
 })
 
+it('a feature knows another one way only', async () => {
+  const known = '../imports/ImportPanel.svelte'
+
+  expect(await complaints('src/features/rides/planted.ts', known)).toEqual([])
+  expect(await complaints('src/features/tuning/planted.ts', known)).not.toEqual([])
+})
+
 it('the rooms of the wizard know each other one way', async () => {
-  const wizard = 'src/features/calibrate/wizard'
+  const wizard = 'src/features/calibration/wizard'
 
   expect(await complaints(`${wizard}/found/planted.ts`, '../steps/instruction')).not.toEqual([])
   expect(await complaints(`${wizard}/found/planted.ts`, '../../zero')).not.toEqual([])

@@ -43,7 +43,7 @@ def test_who_has_no_ride_looks_round_with_a_sample_and_deletes_it(
     open_desk: OpenDesk, fresh: SpindleServer
 ) -> None:
     page = open_desk(address=fresh.url).open("/rides")
-    expect(page.locator("#intake")).to_have_text("No rides yet")
+    expect(page.locator("#import")).to_have_text("No rides yet")
     expect(page.get_by_test_id("rider-totals")).to_have_count(0)
 
     page.get_by_role("button", name="Open the sample ride").click()
@@ -53,7 +53,7 @@ def test_who_has_no_ride_looks_round_with_a_sample_and_deletes_it(
     expect(page.locator("main")).to_contain_text("nobody rode it")
     page.once("dialog", lambda question: question.accept())
     page.get_by_test_id("ride-bar").get_by_role("button", name="Delete").click()
-    expect(page.locator("#intake")).to_have_text("No rides yet")
+    expect(page.locator("#import")).to_have_text("No rides yet")
     assert fresh.get("/rides")["items"] == []
 
 
@@ -72,7 +72,7 @@ def test_a_table_that_does_not_say_its_units_is_asked_about_once(
     dialog.get_by_label("Time zone of its times").fill("Europe/Dublin")
     reading.click()
 
-    row = page.get_by_test_id("intake-list").locator("li")
+    row = page.get_by_test_id("import-list").locator("li")
     expect(row).to_have_attribute("data-state", "complete")
     expect(page.get_by_test_id("ride-table")).to_contain_text("18.0")
     drop_file(page, "second.csv", table("2026-05-02 10"))

@@ -164,7 +164,7 @@ def test_a_dropped_fit_file_becomes_a_ride(desk: Desk, server: SpindleServer) ->
 
     drop_file(page, "morning loop.fit", steady_ride(10))
 
-    row = page.locator("[data-testid=intake-list] li")
+    row = page.locator("[data-testid=import-list] li")
     expect(row).to_have_attribute("data-state", "complete")
     row.locator("text=Open the ride").click()
     page.wait_for_selector(f"{TRACES}[data-draws]")
@@ -181,10 +181,10 @@ def test_a_damaged_file_says_why_and_what_was_saved(desk: Desk, server: SpindleS
     drop_file(page, "cut short.fit", steady_ride(9)[:-1500])
     drop_file(page, "holiday.fit", b"not a ride at all")
 
-    partial = page.locator("[data-testid=intake-list] li", has_text="cut short")
+    partial = page.locator("[data-testid=import-list] li", has_text="cut short")
     expect(partial).to_have_attribute("data-state", "partial")
     expect(partial.locator("small")).not_to_be_empty()
-    rejected = page.locator("[data-testid=intake-list] li", has_text="holiday")
+    rejected = page.locator("[data-testid=import-list] li", has_text="holiday")
     expect(rejected).to_have_attribute("data-state", "rejected")
     expect(rejected.locator("small")).not_to_be_empty()
     desk.picture("rides-intake")

@@ -139,7 +139,7 @@ def test_the_sheet_has_the_calibration_and_the_ride_after_the_work(
     desk.picture("service-sheet", full=True)
 
 
-def test_the_backup_of_the_unit_is_read_and_each_revision_has_its_certificate(
+def test_the_backup_of_the_unit_is_read_and_each_revision_has_its_limit_proof(
     open_desk: OpenDesk, server: SpindleServer, standing: str
 ) -> None:
     config = server.get(f"/devices/{standing}/config")
@@ -154,6 +154,6 @@ def test_the_backup_of_the_unit_is_read_and_each_revision_has_its_certificate(
     assert saved["generation"] == config["generation"]
 
     changes = page.get_by_role("region", name="Changes of the configuration").first
-    changes.get_by_role("button", name="Certificate").last.click()
-    certificate = changes.get_by_test_id("certificate")
-    expect(certificate).to_contain_text("statements with their bounds")
+    changes.get_by_role("button", name="Limit proof").last.click()
+    proof = changes.get_by_test_id("proof")
+    expect(proof).to_contain_text("statements with their bounds")

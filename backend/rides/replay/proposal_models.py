@@ -43,7 +43,7 @@ class ProposalRequest(RequestBody):
 
 class ProposalCandidate(Answer):
     """Settings that were found. The linter has no doubt of them that it has not of what is set
-    now, and their certificate holds."""
+    now, and their limit proof holds."""
 
     gained_pct: float = Field(description="More range, or less of what is felt, by the twin.")
     meets_target: bool
@@ -52,7 +52,7 @@ class ProposalCandidate(Answer):
     duration_s: ProposalFigure
     parameters: Parameters
     changed: list[ParameterChange]
-    certificate_sha256: str
+    limit_proof_sha256: str
     document: LibraryEntry = Field(description="The same, as `POST /library` takes it.")
 
 

@@ -33,7 +33,7 @@ from backend.law.rider_and_bike import RiderAndBike
 from backend.rides.replay.ride_again import twin_of
 from backend.rides.settings_in_force import ConfigOf, unchanged
 from backend.store import Store
-from backend.tuning.limit_proof import KeptCertificates
+from backend.tuning.limit_proof import StoredLimitProofs
 
 JOBS_KEPT = 20
 WAITING_MAX = 4
@@ -76,7 +76,7 @@ class Candidate:
     duration_s: ProposalFigure
     parameters: dict[str, Any]
     changed: tuple[dict[str, Any], ...]
-    certificate_sha256: str
+    limit_proof_sha256: str
     document: dict[str, Any]
 
 
@@ -121,13 +121,13 @@ class Proposals:
         self,
         store: Store,
         config_of: ConfigOf,
-        certificates: KeptCertificates,
+        proofs: StoredLimitProofs,
         generations: int = GENERATIONS,
     ) -> None:
         self._generations = generations
         self._store = store
         self._config_of = config_of
-        self._certificates = certificates
+        self._proofs = proofs
         self._lock = threading.Lock()
         self._numbers = itertools.count(1)
         self._work: dict[str, _Work] = {}
@@ -255,7 +255,7 @@ class Proposals:
         return front
 
     def _proven(self, work: _Work, front: Sequence[Tried]) -> tuple[Candidate, ...]:
-        """What is worth showing of a front: better, near to what was wished, clean, certified."""
+        """What is worth showing of a front: better, near to what was wished, clean, proven."""
         job, before = work.job, work.road.before.aim
         gains = [proposal.gained_pct(job.objective, before, one.scores[0]) for one in front]
         worth = [
@@ -276,9 +276,9 @@ class Proposals:
             config = {**work.config, **changes}
             if not codes_of(config, work.space.which) <= known:
                 continue
-            certificate = self._certificates.of(config)
-            if certificate.holds:
-                kept.append(self._candidate(work, gain, changes, certificate.sha256))
+            proof = self._proofs.of(config)
+            if proof.holds:
+                kept.append(self._candidate(work, gain, changes, proof.sha256))
         return recommended(sorted(kept, key=lambda one: one.gained_pct))
 
     def _candidate(
@@ -297,7 +297,7 @@ class Proposals:
                 {"name": name, "old": work.config[name], "new": value}
                 for name, value in changes.items()
             ),
-            certificate_sha256=sha256,
+            limit_proof_sha256=sha256,
             document=settings_document(
                 f"{WORDS[work.job.objective]} {gain:.0f} %",
                 f"Proposed on {rides_words(work.job.ride_ids)}.",

@@ -2,6 +2,10 @@
 
 Only where the twin, without any change, comes to what the ride was; everything else is refused with
 its reason. What nobody recorded, above all what the rider does at another speed, is in the band.
+
+A question apart from the replay (open loop): a page repeats this one with every edit of the rider's
+mass, and a ride of hours takes a thread for some twenty seconds. It ends, before the next of its
+rides, when the connection of the caller is gone.
 """
 
 from __future__ import annotations

@@ -143,8 +143,8 @@ library_version = Table(
 )
 
 # What was proven of a configuration, by the hash of what the law reads of it: derived, and worked
-# out anew at any time. body: the certificate as it was made first.
-certificate = Table(
+# out anew at any time. body: the limit proof as it was made first.
+limit_proof = Table(
     "certificate",
     metadata,
     Column("config_sha256", String(64), primary_key=True),

@@ -65,5 +65,5 @@ if (target && !alone) {
   mount(App, { target, props: { context, build, drafts: new Drafts(server), router } })
 }
 if (alone || isSignedIn()) {
-  void import('../features/sign_in/sign_in').then(({ show }) => show(alone, server.http, locale))
+  void import('../features/people/sign_in').then(({ show }) => show(alone, server.http, locale))
 }

@@ -1342,10 +1342,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Certify
+         * Prove Limits
          * @description What is proven of every ride with a configuration, against the law of its market.
          */
-        post: operations["certify"];
+        post: operations["prove_limits"];
         delete?: never;
         options?: never;
         head?: never;
@@ -2921,57 +2921,6 @@ export interface components {
             right: "NB" | "NS" | "ZO" | "PS" | "PB";
         };
         /**
-         * Certificate
-         * @description Float32 rounding is within every bound. `holds`: every claim keeps the market's law, and
-         *     the unit runs the firmware that was proven.
-         */
-        Certificate: {
-            /**
-             * Sha256
-             * @description Of all that follows but `holds`, `unproven`, `created_at`.
-             */
-            sha256: string;
-            /**
-             * Config Sha256
-             * @description Of all that the law reads of the configuration.
-             */
-            config_sha256: string;
-            /** Table Sha256 */
-            table_sha256: string;
-            /** Market */
-            market: string;
-            /** Market Sha256 */
-            market_sha256: string;
-            /**
-             * Firmware Version
-             * @description Whose C was proven.
-             */
-            firmware_version: string;
-            /** Method */
-            method: number;
-            /** Holds */
-            holds: boolean;
-            /**
-             * Unproven
-             * @description Why nothing is said of this unit; null if something is.
-             */
-            unproven: "other_firmware" | null;
-            /** Claims */
-            claims: components["schemas"]["Claim"][];
-            /** Cells */
-            cells: components["schemas"]["Cell"][];
-            /**
-             * Not Covered
-             * @description What no proof about the law can hold.
-             */
-            not_covered: string[];
-            /**
-             * Created At
-             * @description When it was first made here.
-             */
-            created_at: string | null;
-        };
-        /**
          * CertificateFile
          * @description What `spindle calibrate evaluate` reads; docs/calibration.md says what is in it.
          */
@@ -3019,34 +2968,6 @@ export interface components {
              * @description Of that torque, k = 2.
              */
             expanded_share: number;
-        };
-        /**
-         * CertificateRequest
-         * @description Of a unit's configuration, one of its revisions, an entry of the library, or the law's
-         *     defaults; tables, modes, limits and parameters take the place of theirs.
-         */
-        CertificateRequest: {
-            /** Device Id */
-            device_id?: string | null;
-            /**
-             * Revision
-             * @description Of the unit.
-             */
-            revision?: number | null;
-            /**
-             * Library
-             * @description An entry's id.
-             */
-            library?: string | null;
-            fuzzy_table?: components["schemas"]["FuzzyTable"] | null;
-            /** @description Shares speed and torque-rate points with the first. */
-            second_table?: components["schemas"]["FuzzyTable"] | null;
-            assist_modes?: components["schemas"]["AssistModes"] | null;
-            limits?: components["schemas"]["UnitLimits"] | null;
-            /** Parameters */
-            parameters?: {
-                [key: string]: number | string | (number | string)[] | (number | string)[][] | null;
-            };
         };
         /**
          * Change
@@ -5324,6 +5245,85 @@ export interface components {
             author_proof: ("stated" | "signed_in") | null;
         };
         /**
+         * LimitProof
+         * @description Float32 rounding is within every bound. `holds`: every claim keeps the market's law, and
+         *     the unit runs the firmware that was proven.
+         */
+        LimitProof: {
+            /**
+             * Sha256
+             * @description Of all that follows but `holds`, `unproven`, `created_at`.
+             */
+            sha256: string;
+            /**
+             * Config Sha256
+             * @description Of all that the law reads of the configuration.
+             */
+            config_sha256: string;
+            /** Table Sha256 */
+            table_sha256: string;
+            /** Market */
+            market: string;
+            /** Market Sha256 */
+            market_sha256: string;
+            /**
+             * Firmware Version
+             * @description Whose C was proven.
+             */
+            firmware_version: string;
+            /** Method */
+            method: number;
+            /** Holds */
+            holds: boolean;
+            /**
+             * Unproven
+             * @description Why nothing is said of this unit; null if something is.
+             */
+            unproven: "other_firmware" | null;
+            /** Claims */
+            claims: components["schemas"]["Claim"][];
+            /** Cells */
+            cells: components["schemas"]["Cell"][];
+            /**
+             * Not Covered
+             * @description What no proof about the law can hold.
+             */
+            not_covered: string[];
+            /**
+             * Created At
+             * @description When it was first made here.
+             */
+            created_at: string | null;
+        };
+        /**
+         * LimitProofRequest
+         * @description Of a unit's configuration, one of its revisions, an entry of the library, or the law's
+         *     defaults; tables, modes, limits and parameters take the place of theirs.
+         */
+        LimitProofRequest: {
+            /** Device Id */
+            device_id?: string | null;
+            /**
+             * Revision
+             * @description Of the unit.
+             */
+            revision?: number | null;
+            /**
+             * Library
+             * @description An entry's id.
+             */
+            library?: string | null;
+            fuzzy_table?: components["schemas"]["FuzzyTable"] | null;
+            /** @description Shares speed and torque-rate points with the first. */
+            second_table?: components["schemas"]["FuzzyTable"] | null;
+            assist_modes?: components["schemas"]["AssistModes"] | null;
+            limits?: components["schemas"]["UnitLimits"] | null;
+            /** Parameters */
+            parameters?: {
+                [key: string]: number | string | (number | string)[] | (number | string)[][] | null;
+            };
+        };
+        /**
          * Limits
          * @description Percent of full scale, unless the name says otherwise.
          *
@@ -6078,7 +6078,7 @@ export interface components {
         /**
          * ProposalCandidate
          * @description Settings that were found. The linter has no doubt of them that it has not of what is set
-         *     now, and their certificate holds.
+         *     now, and their limit proof holds.
          */
         ProposalCandidate: {
             /**
@@ -6098,8 +6098,8 @@ export interface components {
             };
             /** Changed */
             changed: components["schemas"]["ParameterChange"][];
-            /** Certificate Sha256 */
-            certificate_sha256: string;
+            /** Limit Proof Sha256 */
+            limit_proof_sha256: string;
             /** @description The same, as `POST /library` takes it. */
             document: components["schemas"]["LibraryEntry"];
         };
@@ -15346,7 +15346,7 @@ export interface operations {
             };
         };
     };
-    certify: {
+    prove_limits: {
         parameters: {
             query?: never;
             header?: never;
@@ -15355,7 +15355,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["CertificateRequest"];
+                "application/json": components["schemas"]["LimitProofRequest"];
             };
         };
         responses: {
@@ -15365,7 +15365,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["Certificate"];
+                    "application/json": components["schemas"]["LimitProof"];
                 };
             };
             /** @description The body is not JSON */

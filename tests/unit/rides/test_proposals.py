@@ -1,5 +1,5 @@
 """Goal: a wish becomes settings that a rider can believe in: they do what is said of them when they
-are really ridden, are certified and linted, and nothing is written by itself.
+are really ridden, keep their proven limits and are linted, and nothing is written by itself.
 
 Method: a simulated ride over a known road in a real store; the search itself on a problem whose
 front is known; the recommended proposal ridden by the simulated bike, over the same road and with
@@ -23,8 +23,8 @@ from backend.law.proposal import KNOBS, Space
 from backend.rides.replay.propose import RUNNING, Candidate, Job, Proposals, codes_of
 from backend.rides.replay.ride_again import RideAgain
 from backend.store import Store, open_store
-from backend.tuning.limit_proof import KeptCertificates
-from backend.tuning.records import CertificateStore
+from backend.tuning.limit_proof import StoredLimitProofs
+from backend.tuning.records import LimitProofStore
 from firmware_protocol._generated import PARAMETER_BY_NAME
 from tests.fakes.api import api_with, client_of
 from tests.fakes.known_roads import Ridden, road
@@ -118,10 +118,8 @@ def ride_id(store: Store) -> int:
 def proposals(store: Store, request: pytest.FixtureRequest) -> Iterator[Proposals]:
     """A search as long as ever where the test is marked so, else one of 60 rides."""
     generations = GENERATIONS if request.node.get_closest_marker("long") else 2
-    certificates = KeptCertificates(CertificateStore(store.database), "1.0.0")
-    made = Proposals(
-        store, lambda ride, t_s=0: (law_defaults(), "defaults"), certificates, generations
-    )
+    proofs = StoredLimitProofs(LimitProofStore(store.database), "1.0.0")
+    made = Proposals(store, lambda ride, t_s=0: (law_defaults(), "defaults"), proofs, generations)
     yield made
     made.close()
 

@@ -4,7 +4,7 @@ import { faultOf, type Part } from '$shared/device/fault_parts'
 import { healthOf } from '$shared/device/link_health'
 import { standstillOf } from '$shared/device/standstill'
 import type { Units } from '$shared/units/units.svelte'
-import type { Say, ServiceKey } from './words.svelte'
+import type { Say, Key } from './words'
 
 export interface Reading {
   channels: Readonly<Record<string, number | null>>
@@ -18,7 +18,7 @@ export interface Reading {
 }
 
 export interface Check {
-  word: ServiceKey
+  word: Key
   found: string
   allowed: string
   /** Null: not done, `found` says why. */
@@ -43,7 +43,7 @@ export function checksOf(
   // A channel that the unit sends and has no value of now is missing; any other is not sent.
   const none = (name: string) => say(name in channels ? 'no_reading' : 'why_unsent')
 
-  const bounded = (word: ServiceKey, name: string, unit: string, most: number): Check => {
+  const bounded = (word: Key, name: string, unit: string, most: number): Check => {
     const value = at(name)
     const allowed = say('up_to', { most: units.text(most, unit, 0) })
     if (value === null) return { word, found: none(name), allowed, passed: null }

@@ -4,8 +4,8 @@
 import { FAULTS, CHANNELS } from '$generated/registry'
 import { expect, it } from 'vitest'
 import { CAUSES, causesOf, PROOFS, type Cause } from './guide'
-import { en } from './guide_words.svelte'
-import { zh } from './guide_words_zh'
+import en from '$messages/en/service.json'
+import zh from '$messages/zh/service.json'
 
 it('has steps for every fault of the registry, each cause once', () => {
   for (const fault of Object.keys(FAULTS)) {

@@ -1,7 +1,7 @@
 // The guided search: for each fault its likely causes, most likely first, and what the unit's live
 // values say of each. The words of a cause are in guide_words, under its name.
 import { RESTING_KMH, type FAULTS } from '$generated/registry'
-import { en } from './guide_words.svelte'
+import en from '$messages/en/service.json'
 
 type FaultName = keyof typeof FAULTS
 type CauseWord<Key> = Key extends `${infer Cause}.look` ? Cause : never

@@ -7,7 +7,7 @@ import { expect, it } from 'vitest'
 import { checksOf, type Reading } from './checks'
 import { newJob, type Job } from './job'
 import { lastChange, rideAfter } from './on_sheet'
-import { en } from './words.svelte'
+import en from '$messages/en/service.json'
 
 const at = (hour: number) => new Date(Date.UTC(2026, 10, 22, hour)).toISOString()
 const ride = (hour: number, state = 'done') => {

@@ -4,8 +4,8 @@ import { FileServer } from './file_server'
 import { readSeries, type Series } from './series'
 import type {
   AgainRequest,
-  Certificate,
-  CertificateRequest,
+  LimitProof,
+  LimitProofRequest,
   ClosedLoop,
   ComparedSide,
   Comparison,
@@ -284,7 +284,7 @@ export class Server {
   }
 
   /** What is proven of every ride with a configuration. */
-  certify(question: CertificateRequest, signal: AbortSignal): Promise<Certificate> {
+  proveLimits(question: LimitProofRequest, signal: AbortSignal): Promise<LimitProof> {
     return body(this.http.POST('/api/v1/certificates', { body: question, signal }))
   }
 

@@ -1,21 +1,20 @@
-// One file to the server by tus 1.0: resumes where the server says it stands, then waits for the
-// verdict.
+// One file to the server by tus 1.0: resumes where the server has it, then waits for the verdict.
+// tus-js-client: the protocol's own client, MIT; it comes with the first file.
+import type { DetailedError, HttpRequest, HttpStack, Upload as Sending } from 'tus-js-client'
 import { Refusal, refusal } from './client'
 import type { Upload, UploadList } from './types'
 
 const CHUNK_BYTES = 1 << 20
 const HASHED_BYTES_MAX = 64 << 20
-const RETRIES_MAX = 6
 const VERDICT_POLLS_MAX = 600
-
-/** Where unfinished files stand, by what they are: kept while the page is loaded anew. */
-export type Places = Pick<Storage, 'getItem' | 'setItem' | 'removeItem'>
 
 export interface UploadSteps {
   fetch: typeof fetch
   wait: (ms: number) => Promise<void>
   sha256: (file: File) => Promise<string | null>
-  places: Places
+  retry_delays_ms: number[]
+  /** How parts are sent; by the browser's own requests where there is none. */
+  http?: HttpStack
 }
 
 /** Whoever sends does not want to any more. */
@@ -25,15 +24,14 @@ const browser: UploadSteps = {
   fetch: (...request) => fetch(...request),
   wait: (ms) => new Promise((resolve) => setTimeout(resolve, ms)),
   sha256,
-  get places() {
-    return localStorage
-  },
+  retry_delays_ms: [400, 800, 1600, 3200, 6400, 12800],
 }
 
 /**
  * Sends a file and returns the server's verdict; `progress` is called with 0 to 1. A file whose
- * bytes are rides on the server is not sent; one that was not finished goes on where it stood.
- * `gate` is waited for before each part; what it throws ends the sending.
+ * bytes are rides on the server is not sent; one that was not finished goes on where it stopped,
+ * also after the page was loaded anew. `gate` is waited for before each part; what it throws ends
+ * the sending.
  */
 export async function uploadFile(
   file: File,
@@ -44,27 +42,10 @@ export async function uploadFile(
   const hash = await steps.sha256(file)
   const known = hash && (await knownRides(hash, steps))
   if (known) return known
-  const place = `spindle.upload.${hash ?? `${file.name} ${file.size} ${file.lastModified}`}`
-  const begin = await begun(file, hash, place, steps)
-  const { address } = begin
-  let { offset } = begin
-  let failures = 0
-  while (offset < file.size) {
-    await gate()
-    try {
-      offset = await append(address, file, offset, steps)
-      failures = 0
-      progress(offset / file.size)
-    } catch (error) {
-      // Its first bytes showed that it is no ride: the verdict is there, and the rest stays here.
-      if (error instanceof Refusal && error.status === 422) break
-      if (!mayResume(error) || ++failures > RETRIES_MAX) throw error
-      await steps.wait(200 * 2 ** failures)
-      offset = await offsetOf(address, offset, steps)
-    }
-  }
-  const upload = await verdict(address, steps)
-  steps.places.removeItem(place)
+  const sending = await send(file, hash, progress, steps, gate)
+  const upload = await verdict(new URL(sending.url ?? '', document.baseURI).pathname, steps)
+  for (const { urlStorageKey } of await sending.findPreviousUploads())
+    localStorage.removeItem(urlStorageKey)
   return upload
 }
 
@@ -77,71 +58,64 @@ async function knownRides(hash: string, steps: UploadSteps): Promise<Upload | nu
   return { ...first, code: 'duplicate', detail: null, duplicate_of: first.ride_ids[0] ?? null }
 }
 
-async function begun(
+// Resolves when the server has the file, or has read enough of it for a verdict.
+async function send(
   file: File,
   hash: string | null,
-  place: string,
+  progress: (share: number) => void,
   steps: UploadSteps,
-): Promise<{ address: string; offset: number }> {
-  const before = steps.places.getItem(place)
-  if (before) {
-    try {
-      const headers = { 'Tus-Resumable': '1.0.0' }
-      const { headers: stands } = await ask(steps, before, { method: 'HEAD', headers })
-      if (Number(stands.get('upload-length')) === file.size) {
-        return { address: before, offset: Number(stands.get('upload-offset')) }
-      }
-    } catch (error) {
-      // It is gone: given up, or its time is over.
-      if (!(error instanceof Refusal) || error.status === 0) throw error
-    }
-  }
-  const address = await create(file, hash, steps)
-  steps.places.setItem(place, address)
-  return { address, offset: 0 }
-}
-
-async function create(file: File, hash: string | null, steps: UploadSteps): Promise<string> {
-  const declared = hash ? `,sha256 ${base64(hash)}` : ''
-  const response = await ask(steps, 'api/v1/uploads', {
-    method: 'POST',
-    headers: {
-      'Tus-Resumable': '1.0.0',
-      'Upload-Length': String(file.size),
-      'Upload-Metadata': `filename ${base64(file.name)}${declared}`,
-    },
+  gate: () => Promise<void>,
+): Promise<Sending> {
+  const { Upload } = await import('tus-js-client')
+  let stopped: unknown
+  const passed = (request: HttpRequest) =>
+    request.getMethod() === 'PATCH'
+      ? gate().catch((reason: unknown) => {
+          stopped = reason
+          throw reason
+        })
+      : Promise.resolve()
+  return new Promise((resolve, reject) => {
+    const sending = new Upload(file, {
+      endpoint: new URL('api/v1/uploads', document.baseURI).href,
+      chunkSize: CHUNK_BYTES,
+      retryDelays: steps.retry_delays_ms,
+      metadata: { filename: file.name, ...(hash && { sha256: hash }) },
+      fingerprint: async () => hash ?? `${file.name} ${file.size} ${file.lastModified}`,
+      ...(steps.http && { httpStack: steps.http }),
+      onBeforeRequest: passed,
+      onChunkComplete: (_, accepted, total) => progress(accepted / total),
+      onShouldRetry: (error) => !stopped && mayResume(statusOf(error)),
+      onSuccess: () => resolve(sending),
+      onError: (error) => {
+        if (stopped) reject(stopped)
+        else if (statusOf(error) === 422 && sending.url) resolve(sending)
+        else reject(refused(error))
+      },
+    })
+    void sending.findPreviousUploads().then(([before]) => {
+      if (before) sending.resumeFromPreviousUpload(before)
+      sending.start()
+    })
   })
-  const address = response.headers.get('location')
-  if (!address) throw new Refusal(response.status, 'error', 'The server gave no upload address.')
-  return new URL(address, location.origin).pathname
 }
 
-async function append(
-  address: string,
-  file: File,
-  offset: number,
-  steps: UploadSteps,
-): Promise<number> {
-  const response = await ask(steps, address, {
-    method: 'PATCH',
-    headers: {
-      'Tus-Resumable': '1.0.0',
-      'Upload-Offset': String(offset),
-      'Content-Type': 'application/offset+octet-stream',
-    },
-    body: file.slice(offset, offset + CHUNK_BYTES),
-  })
-  return Number(response.headers.get('upload-offset'))
+function statusOf(error: Error | DetailedError): number {
+  const response = 'originalResponse' in error ? error.originalResponse : null
+  return response?.getStatus() ?? 0
 }
 
-// The answer to a failed PATCH may be lost while its bytes arrived: only the server knows.
-async function offsetOf(address: string, offset: number, steps: UploadSteps): Promise<number> {
+function refused(error: Error | DetailedError): Refusal {
+  const response = 'originalResponse' in error ? error.originalResponse : null
+  if (!response) return new Refusal(0, 'unreachable', error.message)
+  return refusal(response.getStatus(), parsed(response.getBody()))
+}
+
+function parsed(text: string): unknown {
   try {
-    const headers = { 'Tus-Resumable': '1.0.0' }
-    const response = await ask(steps, address, { method: 'HEAD', headers })
-    return Number(response.headers.get('upload-offset'))
+    return JSON.parse(text)
   } catch {
-    return offset
+    return null
   }
 }
 
@@ -172,11 +146,6 @@ async function sha256(file: File): Promise<string | null> {
   return [...new Uint8Array(digest)].map((byte) => byte.toString(16).padStart(2, '0')).join('')
 }
 
-function mayResume(error: unknown): boolean {
-  if (!(error instanceof Refusal)) return false
-  return error.status === 0 || error.status >= 500 || error.status === 409
-}
-
-function base64(text: string): string {
-  return btoa(String.fromCodePoint(...new TextEncoder().encode(text)))
+function mayResume(status: number): boolean {
+  return status === 0 || status >= 500 || status === 409
 }

@@ -15,7 +15,7 @@ import {
 } from './parameter_text'
 import { shownTyped, typed } from '../units/typed'
 import { isFactorys, needsToken, ratchetMove } from './ratchet'
-import type { ReviewSay } from './review_words.svelte'
+import type { Say } from './words'
 
 export interface ElementChange {
   key: string
@@ -37,7 +37,7 @@ export interface ElementChange {
 export function elementChanges(
   locale: Locale,
   units: Units,
-  say: ReviewSay,
+  say: Say,
   draft: ConfigDraft,
   change: DraftChange,
 ): ElementChange[] {
@@ -87,7 +87,7 @@ export function elementChanges(
 export function changedBeside(
   locale: Locale,
   units: Units,
-  say: ReviewSay,
+  say: Say,
   draft: ConfigDraft,
 ): string[] {
   return draft.parameters.flatMap((parameter) => {
@@ -111,7 +111,7 @@ export function changedBeside(
 function elementLabel(
   locale: Locale,
   units: Units,
-  say: ReviewSay,
+  say: Say,
   draft: ConfigDraft,
   parameter: Parameter,
   path: number[],

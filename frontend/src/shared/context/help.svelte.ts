@@ -25,7 +25,7 @@ export const TERMS = [
   'generation',
   'trial',
   'closed_loop',
-  'certificate',
+  'limit_proof',
 ] as const
 export type Term = (typeof TERMS)[number]
 

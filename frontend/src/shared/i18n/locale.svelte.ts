@@ -1,22 +1,15 @@
-// The reader's language: words from a typed dictionary, numbers and times by Intl.
-import { en, type Key } from './en'
-import type { Saying } from './zh_codes'
+// The reader's language: messages common to all pages, numbers and times by Intl.
+import { dictionaryOf, english, type CodeKind, type Key, type Language } from './dictionary'
 
-export type Language = 'en' | 'zh'
+export type { Key, Language }
 export type Values = Record<string, string | number>
 export type Words = (key: Key, values?: Values) => string
-/** words: of the pages. codes: for what the server says with a code, by kind and code. */
-interface Dictionary {
-  words: Record<Key, string>
-  codes: Partial<Record<Saying, Record<string, string>>>
-}
-const english: Dictionary = { words: en, codes: {} }
 const tags: Record<Language, string> = { en: 'en-GB', zh: 'zh-CN' }
 
 /** English to begin with; another language is fetched when it is spoken first. */
 export class Locale {
   private spoken = $state.raw<Language>('en')
-  private dictionary = $state.raw<Dictionary>(english)
+  private dictionary = $state.raw(english)
 
   get language(): Language {
     return this.spoken
@@ -38,7 +31,7 @@ export class Locale {
 
   /** What the server says in English and with a code: translated by its code where it is known.
       `{name}` in the translation is replaced by `values.name`. */
-  said(kind: Saying, code: string, english: string, values?: Values): string {
+  said(kind: CodeKind, code: string, english: string, values?: Values): string {
     const translated = this.dictionary.codes[kind]?.[code]
     return translated === undefined ? english : fill(translated, values)
   }
@@ -86,12 +79,6 @@ export class Locale {
     if (seconds == null || !Number.isFinite(seconds)) return '—'
     return clock(seconds)
   }
-}
-
-async function dictionaryOf(language: Language): Promise<Dictionary> {
-  if (language === 'en') return english
-  const [{ zh }, { zhCodes }] = await Promise.all([import('./zh'), import('./zh_codes')])
-  return { words: zh, codes: zhCodes }
 }
 
 /** h:mm:ss of a duration in seconds; below an hour m:ss. */

@@ -2,11 +2,12 @@
 import { expect, test } from 'vitest'
 import { clock, type Locale } from '$shared/i18n/locale.svelte'
 import { nameOf, valueOf } from './stated_lines'
-import { en, type InsightKey } from './words.svelte'
+import en from '$messages/en/insight.json'
+import type { Key } from './words'
 
 const number = (value: number, digits: number) => value.toFixed(digits)
 const locale = { number, duration: clock } as unknown as Locale
-const say = (key: InsightKey) => en[key]
+const say = (key: Key) => en[key]
 
 test('what the device stated has a name in words and a unit of the pages', () => {
   const shown = [

@@ -1,7 +1,8 @@
 // Figures of the whole ride as its device stated them: name and value, in the units of the pages.
 import type { Ride } from '$shared/api/types'
 import type { Locale } from '$shared/i18n/locale.svelte'
-import { en, type InsightKey, type InsightSay } from './words.svelte'
+import en from '$messages/en/insight.json'
+import type { Key, Say } from './words'
 
 export type Stated = Ride['statements'][number]['figures'][number]
 
@@ -14,9 +15,9 @@ const ours: Record<string, [unit: string, factor: number]> = {
 const DIGITS = 2
 
 /** A figure's name: in words where they are known, else as the file has it. */
-export function nameOf(stated: Stated, say: InsightSay): string {
+export function nameOf(stated: Stated, say: Say): string {
   const key = `stated_${stated.name}`
-  return key in en ? say(key as InsightKey) : stated.name
+  return key in en ? say(key as Key) : stated.name
 }
 
 export function valueOf(stated: Stated, locale: Locale): string {

@@ -5,10 +5,11 @@ import type { Ride } from '$shared/api/types'
 import { Locale, fill } from '$shared/i18n/locale.svelte'
 import { Units } from '$shared/units/units.svelte'
 import { headline } from './headline'
-import { en, type RideSay } from './words.svelte'
+import en from '$messages/en/ride.json'
+import type { Say } from './words'
 
 const locale = new Locale()
-const say: RideSay = (key, values) => fill(en[key], values)
+const say: Say = (key, values) => fill(en[key], values)
 const speech = { say, locale, units: new Units(locale, 'metric') }
 const ride = (channels: string[], summary: object, meaning: string | null = null) =>
   ({

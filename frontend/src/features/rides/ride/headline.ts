@@ -2,10 +2,10 @@
 import type { Ride, RideEnergy } from '$shared/api/types'
 import type { Locale } from '$shared/i18n/locale.svelte'
 import type { Units } from '$shared/units/units.svelte'
-import type { RideKey, RideSay } from './words.svelte'
+import type { Key, Say } from './words'
 
 export interface Figure {
-  name: RideKey
+  name: Key
   token?: 'rider' | 'motor' | 'battery'
   /** Number and unit; null where the ride does not tell it. */
   value: [number: string, unit: string] | null
@@ -14,7 +14,7 @@ export interface Figure {
 }
 
 interface Speech {
-  say: RideSay
+  say: Say
   locale: Locale
   units: Units
 }
@@ -30,7 +30,7 @@ export function headline(
   const has = (name: string) => ride.channels.some((channel) => channel.name === name)
   const figure = (value: number | null | undefined, unit: string): Figure['value'] =>
     value == null ? null : [units.number(value, unit), units.label(unit)]
-  const told = (value: unknown, note: string, missing: RideKey) =>
+  const told = (value: unknown, note: string, missing: Key) =>
     value == null ? say(missing) : note
   const meanTop = (mean: number | null | undefined, top: number | null | undefined) =>
     say('mean_top', { mean: units.text(mean, 'W'), top: units.text(top, 'W') })

@@ -3,7 +3,7 @@ import type { RideEvent } from '$shared/api/types'
 import type { Locale } from '$shared/i18n/locale.svelte'
 import { faultList } from '$shared/device/fault_text'
 import { flagNames } from '$shared/stream/flags'
-import { words } from './words.svelte'
+import { words } from './words'
 
 const DAY_S = 86_400
 

@@ -1,10 +1,10 @@
 // @vitest-environment happy-dom
-/* Goal: what recorded a ride is told in words where the file has words, and never guessed. */
+/* Goal: what recorded a ride is named in words where the file has words, and never guessed. */
 import { expect, it } from 'vitest'
-import { told, type FileSay } from './file_words.svelte'
-import { deviceLine, deviceName } from './instruments'
+import type { Say } from '../words'
+import { deviceLine, deviceName, wordOf } from './instruments'
 
-const say: FileSay = (key, values) => [key, ...Object.values(values ?? {})].join(' ')
+const say: Say = (key, values) => [key, ...Object.values(values ?? {})].join(' ')
 const nothing = {
   kind: null,
   maker: null,
@@ -30,6 +30,6 @@ it('tells serial number and battery where they are known', () => {
 })
 
 it('keeps a word of the file that we have none for', () => {
-  expect(told(say, 'sport', 'cycling')).toBe('sport_cycling')
-  expect(told(say, 'sport', 'rock_climbing')).toBe('rock climbing')
+  expect(wordOf(say, 'sport', 'cycling')).toBe('sport_cycling')
+  expect(wordOf(say, 'sport', 'rock_climbing')).toBe('rock climbing')
 })

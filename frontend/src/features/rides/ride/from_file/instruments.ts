@@ -1,6 +1,7 @@
 // The devices that recorded a ride, in words.
 import type { Ride } from '$shared/api/types'
-import { told, type FileSay } from './file_words.svelte'
+import en from '$messages/en/ride.json'
+import type { Key, Say } from '../words'
 
 type Instrument = Ride['instruments'][number]
 
@@ -10,14 +11,20 @@ export function deviceName({ maker, product }: Instrument): string {
   return [maker?.replaceAll('_', ' '), named].filter((one) => one).join(' ')
 }
 
-export function deviceLine({ serial_number, battery_status }: Instrument, say: FileSay): string {
+export function deviceLine({ serial_number, battery_status }: Instrument, say: Say): string {
   const known = battery_status !== null && !battery_status.startsWith('status_')
   return [
     serial_number === null ? '' : say('serial', { number: serial_number }),
-    known ? say('battery', { state: told(say, 'state', battery_status) }) : '',
+    known ? say('battery', { state: wordOf(say, 'state', battery_status) }) : '',
   ]
     .filter((one) => one !== '')
     .join(' · ')
+}
+
+/** A word of the file: ours where there is one, else its own. */
+export function wordOf(say: Say, of: 'kind' | 'sport' | 'state', word: string): string {
+  const key = `${of}_${word.toLowerCase()}`
+  return key in en ? say(key as Key) : word.replaceAll('_', ' ')
 }
 
 /** What recorded a ride: by its file, else the unit it came from; '' where nobody knows. */

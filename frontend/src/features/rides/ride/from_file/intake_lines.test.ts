@@ -2,9 +2,10 @@
 import { fill, type Locale } from '$shared/i18n/locale.svelte'
 import { expect, test } from 'vitest'
 import { intakeLines } from './intake_lines'
-import { en, type FileSay } from './file_words.svelte'
+import en from '$messages/en/ride.json'
+import type { Say } from '../words'
 
-const say: FileSay = (key, values) => fill(en[key], values)
+const say: Say = (key, values) => fill(en[key], values)
 const locale = { number: String, lookup: (_key: string, name: string) => name } as unknown as Locale
 const nothing = {
   rows_read: 60,

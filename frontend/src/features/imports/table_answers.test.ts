@@ -1,0 +1,44 @@
+/* Goal: a unit is never chosen for a rider, and a table is read when all that is asked is said. */
+import type { TableQuestion } from '$shared/api/types'
+import { describe, expect, it } from 'vitest'
+import { answered, isWhole } from './table_answers'
+
+const column = (name: string, units: string[]) => ({
+  name,
+  channel: null,
+  unit: null,
+  units,
+  samples: [],
+})
+const question: TableQuestion = {
+  header_sha256: 'f'.repeat(64),
+  kind: 'a table',
+  time_zone: true,
+  rows_per_second: false,
+  columns: [column('speed', ['km/h', 'm/s']), column('cadence', [])],
+  answer: null,
+}
+
+describe('what is said of a table', () => {
+  it('begins with the zone of here and no unit', () => {
+    expect(answered(question, 'Europe/Dublin')).toEqual({
+      zone: 'Europe/Dublin',
+      units: { speed: '' },
+      rate: null,
+    })
+  })
+
+  it('begins with what was said before, as far as it can still be said', () => {
+    const known = { time_zone: 'UTC', units: { speed: 'knots' }, rows_per_second: 5 }
+    const said = answered({ ...question, answer: known }, 'Europe/Dublin')
+    expect(said).toEqual({ zone: 'UTC', units: { speed: '' }, rate: 5 })
+  })
+
+  it('is whole with a zone, each unit, and a rate where rows have no time', () => {
+    const said = { zone: 'UTC', units: { speed: 'm/s' }, rate: null }
+    expect(isWhole(question, said)).toBe(true)
+    expect(isWhole(question, { ...said, zone: ' ' })).toBe(false)
+    expect(isWhole(question, { ...said, units: { speed: '' } })).toBe(false)
+    expect(isWhole({ ...question, rows_per_second: true }, said)).toBe(false)
+  })
+})

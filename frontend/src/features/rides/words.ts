@@ -1,0 +1,6 @@
+import en from '$messages/en/rides.json'
+import { catalogue } from '$shared/i18n/catalogue.svelte'
+
+export const words = await catalogue(en, () => import('$messages/zh/rides.json'))
+export type Key = keyof typeof en
+export type Say = ReturnType<typeof words>
