@@ -12,12 +12,14 @@ import itertools
 import os
 import sys
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 
 from sim_device import emulator
 from tests import counts, parts
 from tests.fakes import board_rig
+from tests.fakes.cable import Cable
 from tests.fakes.new_database import new_databases_are_copied
 from tests.fakes.server import ServerHere
 from tests.run import again, guard, started
@@ -98,3 +100,10 @@ def device(server: ServerHere) -> Iterator[str]:
     server.advance(device, 0.1)
     yield device
     server.ask("DELETE", f"/devices/{device}")
+
+
+@pytest.fixture
+def cable(tmp_path: Path) -> Iterator[Cable]:
+    """A server of the test's own with one address, and units that come onto it in turn."""
+    with Cable(tmp_path) as made:
+        yield made

@@ -18,7 +18,7 @@ from tests.browser.test_trial_bar import BAR, OVER, SHORT_S, first_rule, try_fir
 from tests.browser.test_tune_page import CELL
 from tests.fakes.relay import Relay
 from tests.fakes.server import ServerHere
-from tests.fakes.unit_on_port import UnitOnPort
+from tests.fakes.simulated_unit import UnitOnPort
 
 pytestmark = pytest.mark.slow
 

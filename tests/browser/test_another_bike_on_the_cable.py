@@ -6,9 +6,6 @@ Method: two simulated units, factory-fresh, one after the other behind one addre
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from pathlib import Path
-
 import pytest
 from playwright.sync_api import expect
 
@@ -23,12 +20,6 @@ pytestmark = pytest.mark.slow
 
 REPLACED = "[data-testid=replaced]"
 ON_THE_WAY = "status of 50[34]|WebSocket|ERR_CONNECTION"
-
-
-@pytest.fixture
-def cable(tmp_path: Path) -> Iterator[Cable]:
-    with Cable(tmp_path) as made:
-        yield made
 
 
 def test_edits_for_a_are_not_written_to_b_and_wait_for_a(open_desk: OpenDesk, cable: Cable) -> None:

@@ -16,9 +16,9 @@ from playwright.sync_api import Page, Route, expect
 
 from tests.browser.conftest import OpenDesk
 from tests.browser.desk import Desk, sideways
-from tests.browser.test_signing_in import PASSWORD, Workshop, fill_in
+from tests.browser.test_signing_in import OWN, PASSWORD, Workshop, fill_in, workshop_in
 from tests.browser.test_tune_page import BAR, CELL, WRITE, open_tune, review
-from tests.fakes.server import ServerHere, SpindleServer
+from tests.fakes.server import SpindleServer
 
 pytestmark = pytest.mark.slow
 
@@ -119,12 +119,8 @@ def test_a_reload_keeps_edits_and_the_reason(
 
 @pytest.fixture
 def workshop(tmp_path: Path) -> Iterator[Workshop]:
-    unit = "sim:own?scenario=none"
-    with ServerHere(tmp_path, [unit], SPINDLE_HOST="0.0.0.0") as server:
-        assert server.services.people is not None
-        token = server.services.people.accounts.first_token()
-        assert token is not None
-        yield Workshop(server, server.url.replace("0.0.0.0", "127.0.0.1"), token)
+    with workshop_in(tmp_path, OWN) as opened:
+        yield opened
 
 
 def test_a_session_that_ended_elsewhere_takes_nothing_with_it(

@@ -77,12 +77,6 @@ def test_faults_in_chinese_on_a_phone(open_desk: OpenDesk, standing: str) -> Non
     desk.picture("faults-phone-zh")
 
 
-def test_a_real_unit_without_faults_says_so(desk: Desk, standing: str) -> None:
-    page = desk.open("/service")
-
-    expect(page.locator("[data-testid=faults]")).to_contain_text("No active faults")
-
-
 def test_a_rider_is_told_what_to_do_in_plain_words(
     open_desk: OpenDesk, server: SpindleServer, standing: str
 ) -> None:

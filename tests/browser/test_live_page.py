@@ -17,7 +17,7 @@ from tests.browser.conftest import OpenDesk
 from tests.browser.desk import Desk, sideways
 from tests.browser.judged import moved
 from tests.fakes.server import ServerHere, SpindleServer, eventually
-from tests.fakes.unit_on_port import UnitOnPort
+from tests.fakes.simulated_unit import UnitOnPort
 
 LIVE = "[data-testid=live]"
 TORQUE = "[data-channel=rider_torque_filtered_nm] strong"

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -21,6 +22,7 @@ from tests.browser.judged import JUDGE, SMALL_TARGETS
 from tests.fakes.server import ServerHere, SpindleServer
 
 PASSWORD = "eine lange Nacht"
+OWN = "sim:own?scenario=none"
 
 
 @dataclass
@@ -32,13 +34,20 @@ class Workshop:
     token: str
 
 
-@pytest.fixture
-def workshop(tmp_path: Path) -> Iterator[Workshop]:
-    with ServerHere(tmp_path, [], SPINDLE_HOST="0.0.0.0") as server:
+@contextmanager
+def workshop_in(folder: Path, *units: str) -> Iterator[Workshop]:
+    """One without people yet, reached from the network."""
+    with ServerHere(folder, units, SPINDLE_HOST="0.0.0.0") as server:
         assert server.services.people is not None
         token = server.services.people.accounts.first_token()
         assert token is not None
         yield Workshop(server, server.url.replace("0.0.0.0", "127.0.0.1"), token)
+
+
+@pytest.fixture
+def workshop(tmp_path: Path) -> Iterator[Workshop]:
+    with workshop_in(tmp_path) as opened:
+        yield opened
 
 
 def fill_in(page: Page, name: str, password: str = PASSWORD) -> None:

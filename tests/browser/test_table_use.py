@@ -14,15 +14,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from playwright.sync_api import Page, Route, expect
+from playwright.sync_api import Route, expect
 
-from backend.core.channels import ChannelSpec
-from backend.core.ride import RideContext
 from backend.store import open_store
-from firmware_protocol._generated import CHANNELS
 from tests.browser.conftest import OpenDesk
-from tests.browser.desk import Desk, sideways
+from tests.browser.desk import sideways
 from tests.browser.judged import JUDGE
+from tests.browser.test_tune_page import open_tune
+from tests.fakes.kept_rides import recorded_ride
 from tests.fakes.server import ServerHere, SpindleServer
 
 UNIT = ["sim:ridden?seed=5&scenario=none"]
@@ -50,22 +49,15 @@ ASKED = "**/rides/table-use"
 
 def write_rides(data: Path, unit_key: str) -> None:
     """Puts the rides on the shelf of a server that is not running."""
-    known = {row.name: ChannelSpec(row.name, row.unit, float(row.scale)) for row in CHANNELS}
-    specs = tuple(known[name] for name in NAMES)
     with open_store(f"sqlite:///{data}/spindle.db", (data / "objects").as_uri()) as store:
         for number, places in enumerate(RIDES):
             parts = [
                 np.tile([speed_kmh, rate, *STEADY.values()], (rows, 1))
                 for speed_kmh, rate, rows in places
             ]
-            values = np.concatenate(parts)
-            counts = [spec.to_counts(values[:, i]) for i, spec in enumerate(specs)]
-            rows = np.stack(counts, axis=1).astype(np.int16)
+            columns = dict(zip(NAMES, np.concatenate(parts).T, strict=True))
             started_us = STARTED_US + number * 3_600_000_000
-            context = RideContext(unit_key=unit_key)
-            ride = store.rides.start_live(specs, 10_000, started_us, context, "on the points")
-            store.rides.append_tail(ride, 0, rows).result()
-            store.rides.finish(ride)
+            recorded_ride(store, columns, 10_000, started_us, unit_key=unit_key)
 
 
 @pytest.fixture(scope="module")
@@ -79,12 +71,6 @@ def shop(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
     with ServerHere(data, UNIT) as running:
         running.ready_device()
         yield running
-
-
-def open_tune(desk: Desk, address: str = "/tune") -> Page:
-    page = desk.open(address)
-    page.wait_for_selector("[data-testid=surface][data-draws]")
-    return page
 
 
 def test_the_grid_tells_how_much_of_the_time_each_column_acted(

@@ -77,6 +77,8 @@ def test_a_change_on_trial_is_reverted_and_the_table_follows(
     assert first_rule(server, standing) == "ZO"
     expect(page.locator(f"{CELL} .label")).to_have_text("ZO")
     expect(page.locator("[data-testid=draft-bar]")).to_contain_text("Same as in the unit")
+    page.click(f"{OVER} >> text=Dismiss")
+    expect(page.locator(OVER)).to_have_count(0)
 
 
 def test_a_trial_nobody_keeps_runs_out_and_the_page_says_so(
@@ -94,19 +96,6 @@ def test_a_trial_nobody_keeps_runs_out_and_the_page_says_so(
     after = server.get(f"/devices/{standing}/config")
     assert after["parameters"] == before["parameters"]
     expect(page.locator(f"{CELL} .label")).to_have_text("ZO")
-
-
-def test_a_trial_that_ends_early_by_another_hand_is_told_apart(
-    desk: Desk, server: SpindleServer, standing: str
-) -> None:
-    page = open_tune(desk)
-    try_first_rule(page, LONG_S)
-
-    server.ask("POST", f"/devices/{standing}/config/rollback")
-
-    expect(page.locator(OVER)).to_contain_text("Reverted as requested")
-    page.click(f"{OVER} >> text=Dismiss")
-    expect(page.locator(OVER)).to_have_count(0)
 
 
 def test_nothing_else_is_written_while_a_trial_runs(

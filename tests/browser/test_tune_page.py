@@ -22,8 +22,8 @@ BAR = "[data-testid=draft-bar]"
 GAIN_ALL_PB = 0.4 + 0.1 * 2 / 3
 
 
-def open_tune(desk: Desk) -> Page:
-    page = desk.open("/tune")
+def open_tune(desk: Desk, address: str = "/tune") -> Page:
+    page = desk.open(address)
     page.wait_for_selector(CELL)
     page.wait_for_selector(f"{SURFACE}[data-draws]")
     return page

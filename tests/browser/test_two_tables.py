@@ -14,18 +14,8 @@ from playwright.sync_api import Page, Route, expect
 
 from tests.browser.conftest import OpenDesk
 from tests.browser.desk import Desk, sideways
-from tests.browser.test_tune_page import reading
+from tests.browser.test_tune_page import BAR, CELL, open_tune, reading
 from tests.fakes.server import SpindleServer, eventually
-
-CELL = "[data-cell='0,0']"
-BAR = "[data-testid=draft-bar]"
-
-
-def open_tune(desk: Desk, address: str = "/tune") -> Page:
-    page = desk.open(address)
-    page.wait_for_selector(CELL)
-    page.wait_for_selector("[data-testid=surface][data-draws]")
-    return page
 
 
 def in_japan(page: Page) -> None:

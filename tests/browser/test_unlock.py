@@ -159,19 +159,6 @@ def test_without_a_key_in_the_unit_what_needs_a_token_is_no_dead_end(
     assert written["wheel_circumference_m"] < beyond_m
 
 
-def test_beyond_a_dealer_s_band_the_review_shows_the_way(desk: Desk, standing: str) -> None:
-    page = desk.open("/sensor")
-    gain = page.locator("[data-parameter=sensor_gain_nm_per_count] input")
-    gain.fill("0.02")
-    gain.press("Enter")
-
-    review(page)
-
-    steps = page.get_by_test_id("token-steps")
-    expect(steps).to_contain_text("Needs the maker's token: Sensor gain")
-    expect(page.locator("dialog footer")).to_contain_text(ASK)
-
-
 def test_a_parameter_of_the_factory_is_changed_on_purpose_and_with_a_token(
     desk: Desk, standing: str
 ) -> None:

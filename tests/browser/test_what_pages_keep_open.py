@@ -17,9 +17,8 @@ from playwright.sync_api import Locator, Page, expect
 
 from tests.browser.conftest import OpenDesk
 from tests.browser.test_edits_are_kept import NEW_VERSION, updated
-from tests.browser.test_signing_in import PASSWORD, Workshop, fill_in
+from tests.browser.test_signing_in import OWN, PASSWORD, Workshop, fill_in, workshop_in
 from tests.fakes.cable import A, B, Cable
-from tests.fakes.server import ServerHere
 
 pytestmark = pytest.mark.slow
 
@@ -37,10 +36,6 @@ class Open:
     value: str
 
 
-def first_rule(page: Page) -> Locator:
-    return page.locator("[data-cell='0,0']").first
-
-
 def crank(page: Page) -> Locator:
     return page.get_by_label("Crank length").first
 
@@ -52,12 +47,6 @@ def plan_a_calibration(page: Page) -> None:
 
 
 OPEN = {
-    "tune": Open(
-        "/tune",
-        lambda page: first_rule(page).press("1"),
-        lambda page: first_rule(page).locator(".label"),
-        "NB",
-    ),
     "modes": Open(
         "/tune/modes",
         lambda page: page.get_by_label("Assist ratio, mode 1 eco").fill("0.8"),
@@ -72,6 +61,9 @@ OPEN = {
         "cuts out on climbs",
     ),
 }
+# Its edits, and the reason that was being typed: test_edits_are_kept.py and
+# test_another_bike_on_the_cable.py.
+ELSEWHERE = {"tune"}
 # What is asked of these is in their address, what is set is set at once, and a line that is being
 # typed goes with Enter.
 NOTHING_OPEN = {"bike", "compare", "connect", "live", "try", "why", "library", "rides", "ride"} | {
@@ -81,14 +73,10 @@ NOTHING_OPEN = {"bike", "compare", "connect", "live", "try", "why", "library", "
 
 
 def shows(page: Page, kept: Open, is_there: bool = True) -> None:
-    """Whether a page shows what was opened on it, in a field or as a text."""
+    """Whether a page shows what was opened on it."""
     field = kept.field(page).first
-    if is_there and kept.path == "/tune":
-        expect(field).to_have_text(kept.value)
-    elif is_there:
+    if is_there:
         expect(field).to_have_value(kept.value)
-    elif kept.path == "/tune":
-        expect(field).not_to_have_text(kept.value)
     elif kept.path == "/sensor":
         expect(page.get_by_role("button", name="Begin a calibration")).to_be_visible()
     else:
@@ -97,7 +85,7 @@ def shows(page: Page, kept: Open, is_there: bool = True) -> None:
 
 def test_every_page_is_asked() -> None:
     names = set(re.findall(r"^ {2}(\w+): screen", LIST_OF_PAGES.read_text("utf-8"), re.MULTILINE))
-    assert names == set(OPEN) | NOTHING_OPEN
+    assert names == set(OPEN) | ELSEWHERE | NOTHING_OPEN
 
 
 @pytest.fixture(scope="module")
@@ -140,13 +128,8 @@ def test_a_reload_another_unit_and_an_update_leave_what_is_open(
 
 @pytest.fixture(scope="module")
 def workshop(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Workshop]:
-    folder = tmp_path_factory.mktemp("workshop")
-    unit = "sim:own?scenario=none"
-    with ServerHere(folder, [unit], SPINDLE_HOST="0.0.0.0") as server:
-        assert server.services.people is not None
-        token = server.services.people.accounts.first_token()
-        assert token is not None
-        yield Workshop(server, server.url.replace("0.0.0.0", "127.0.0.1"), token)
+    with workshop_in(tmp_path_factory.mktemp("workshop"), OWN) as opened:
+        yield opened
 
 
 @pytest.fixture(scope="module")
@@ -157,8 +140,7 @@ def signed_up(workshop: Workshop) -> Workshop:
     return workshop
 
 
-# Of Tune test_edits_are_kept.py says it, with the reason that was being typed.
-@pytest.mark.parametrize("name", sorted(OPEN.keys() - {"tune"}))
+@pytest.mark.parametrize("name", OPEN)
 def test_a_session_that_ended_elsewhere_leaves_what_is_open(
     open_desk: OpenDesk, signed_up: Workshop, name: str
 ) -> None:

@@ -25,7 +25,7 @@ from firmware_protocol.layout import MISSING, Message
 from firmware_protocol.parameters import unpack_image
 from sim_device.lockstep import LockstepUnit
 from tests.fakes.bench import Bench
-from tests.fakes.unit_link import LockstepAsUnit
+from tests.fakes.simulated_unit import LockstepAsUnit
 from tests.fakes.wireshark import (
     DLT_ETHERNET,
     DLT_USER0,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable
-from typing import Any, Protocol, TypeVar
+from typing import Any, TypeVar
 
 from backend.device.ebl.session.operation import Operation
 from backend.device.ebl.session.schema import Schemas
@@ -12,20 +12,9 @@ from backend.device.ebl.session.session import Session
 from backend.device.ebl.session.stream_receiver import StreamPlan
 from backend.device.states import DeviceEvent, LinkState, StateChanged
 from backend.device.stream import StreamBlock
+from tests.fakes.unit_link import Unit
 
 Result = TypeVar("Result")
-
-PATIENCE_S = 30.0
-
-
-class Unit(Protocol):
-    """What a unit under test can do: FakeUnit and the lockstep unit alike."""
-
-    def receive(self, data: bytes) -> None: ...
-
-    def transmit(self) -> bytes: ...
-
-    def advance(self, seconds: float) -> None: ...
 
 
 def whole(data: bytes) -> Iterable[bytes]:
@@ -42,6 +31,7 @@ class SessionBench(ABC):
     """A session in virtual time; what lies between it and its unit, a `step` moves."""
 
     STEP_S = 0.010
+    PATIENCE_S = 30.0
 
     def __init__(self, plan: StreamPlan | None = None, schemas: Schemas | None = None) -> None:
         self.now_s = 100.0
@@ -55,8 +45,9 @@ class SessionBench(ABC):
         for _ in range(round(seconds / self.STEP_S)):
             self.step()
 
-    def run_until(self, done: Callable[[], bool], patience_s: float = PATIENCE_S) -> None:
+    def run_until(self, done: Callable[[], bool], patience_s: float | None = None) -> None:
         """Step until it is so; AssertionError if that does not come in time."""
+        patience_s = patience_s or self.PATIENCE_S
         for _ in range(round(patience_s / self.STEP_S)):
             if done():
                 return

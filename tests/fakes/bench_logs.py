@@ -23,6 +23,8 @@ from tests.fakes.bench_unit import BenchUnit
 
 SESSION = 7
 STANDSTILL_S = 20.0
+BLOCK_BYTES = 2048
+LOG_BYTES = 32 * BLOCK_BYTES
 
 
 @dataclass(frozen=True)
@@ -45,6 +47,11 @@ def unit_with_log(block_bytes: int, log_bytes: int) -> BenchUnit:
     unit.boot()
     unit.hello()
     return unit
+
+
+def unit_with_room() -> BenchUnit:
+    """With room for a few rides."""
+    return unit_with_log(BLOCK_BYTES, LOG_BYTES)
 
 
 def ride(unit: BenchUnit, seconds: float, speed_kmh: float = 18.0) -> None:

@@ -176,6 +176,10 @@ class BenchUnit:
         """What the unit asks of its motor."""
         return float(lib.bench_motor_torque_nm(self.board))
 
+    def event_codes(self) -> list[int]:
+        """What it told by itself, in its order."""
+        return [event.code for event in self.events]
+
     def faults(self) -> int:
         """The fault flags it tells."""
         message = self.ask(EvtFaultListRequest()).message

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Self
 
 from tests.fakes.server import ServerHere, eventually
-from tests.fakes.unit_on_port import UnitOnPort
+from tests.fakes.simulated_unit import UnitOnPort
 
 # Factory-fresh units whose configurations are equal to the last bit.
 A = ("--seed", "11", "--scenario", "none")

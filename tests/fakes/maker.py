@@ -5,6 +5,7 @@ from __future__ import annotations
 from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey
 from sim_device.firmware.python._native import lib
 
+from backend.errors import TokenNeeded
 from firmware_protocol import codec, parameters
 from firmware_protocol._generated import (
     Access,
@@ -18,6 +19,7 @@ from firmware_protocol._generated import (
     Status,
 )
 from firmware_protocol.layout import Value
+from firmware_protocol.spelling import member_of
 from firmware_protocol.unlock_token import Challenge, Token, signed_message
 from tests.fakes.bench_unit import BenchUnit, crc32
 
@@ -87,3 +89,15 @@ def respond(unit: BenchUnit, transaction: int, token: Token) -> codec.Response:
 def commit(unit: BenchUnit, transaction: int, image: bytes) -> codec.Response:
     """Ask for the staged image to become active."""
     return unit.ask(CfgCommitRequest(transaction, crc32(image), 0, 0))
+
+
+def challenge_of(error: TokenNeeded) -> Challenge:
+    """What a host was told to have signed."""
+    asked = error.challenge
+    return Challenge(
+        bytes.fromhex(str(asked["uid"])),
+        bytes.fromhex(str(asked["nonce"])),
+        member_of(Access, str(asked["level"])),
+        int(asked["expires_us"]),
+        bytes.fromhex(str(asked["image"])),
+    )

@@ -9,23 +9,18 @@ from __future__ import annotations
 import random
 from collections import deque
 from collections.abc import Callable
-from typing import TypeVar
 
 from sim_device.firmware.python._native import ffi, lib
 
-from backend.device.ebl.session.operation import Operation
-from backend.device.ebl.session.session import Session
 from backend.device.ebl.session.stream_receiver import StreamPlan
 from backend.device.states import LinkState
+from tests.fakes.bench import SessionBench
 from tests.fakes.bench_unit import BenchUnit
-
-Result = TypeVar("Result")
 
 STEP_S = 0.001
 BITS_PER_BYTE = 10
 # What a UART with DMA holds: a little more than the fastest line carries in a step.
 UART_BYTES = 256
-PATIENCE_S = 120.0
 
 
 class Direction:
@@ -62,8 +57,11 @@ class Direction:
         return arrived
 
 
-class SerialWire:
+class SerialWire(SessionBench):
     """A session that talks to a unit over such a line. `loss`: of frames, in each direction."""
+
+    STEP_S = STEP_S
+    PATIENCE_S = 120.0
 
     def __init__(
         self,
@@ -74,6 +72,7 @@ class SerialWire:
         seed: int = 1,
         plan: StreamPlan | None = None,
     ) -> None:
+        super().__init__(plan)
         chance = random.Random(seed)
         self.unit = unit
         self.bits_per_second = bits_per_second
@@ -82,8 +81,6 @@ class SerialWire:
         self.up = Direction(self.bytes_per_s, lambda: chance.random() < self.loss)
         self.down = Direction(self.bytes_per_s, lambda: chance.random() < self.loss)
         self.plugged = True
-        self.now_s = 100.0
-        self.session = Session(self.now_s, plan)
         self._delay_steps = round(turn_around_s / STEP_S)
         self._late: deque[bytes] = deque([b""] * self._delay_steps)
         self._unsent = b""
@@ -115,24 +112,3 @@ class SerialWire:
         heard = self.down.carry(sent)
         if heard and self.plugged:
             lib.bench_send(self.unit.board, heard, len(heard))
-
-    def run(self, seconds: float) -> None:
-        for _ in range(round(seconds / STEP_S)):
-            self.step()
-
-    def run_until(self, done: Callable[[], bool], patience_s: float = PATIENCE_S) -> None:
-        for _ in range(round(patience_s / STEP_S)):
-            if done():
-                return
-            self.step()
-        raise AssertionError(f"not within {patience_s} s: {self.session.reason}")
-
-    def ask(self, operation: Operation[Result]) -> Result:
-        """Run an operation to its end; its error is raised here."""
-        results: list[Result] = []
-        errors: list[BaseException] = []
-        self.session.start(operation, results.append, errors.append)
-        self.run_until(lambda: bool(results or errors))
-        if errors:
-            raise errors[0]
-        return results[0]

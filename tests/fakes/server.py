@@ -19,7 +19,7 @@ from backend.services import Services
 from backend.settings import load
 from spindle.client import Spindle
 from spindle.testing.server import PATIENCE_S, RunningServer
-from tests.fakes import unit_here
+from tests.fakes import simulated_unit
 from tests.run import started
 
 Answer = TypeVar("Answer")
@@ -154,7 +154,7 @@ class ServerHere(SpindleServer):
         with contextlib.ExitStack() as opening:
             settings = self._settings
             port = opening.enter_context(listening_socket(settings.host, 0))
-            reach = partial(unit_here.opener, flash_folder=settings.data / "units")
+            reach = partial(simulated_unit.opener, flash_folder=settings.data / "units")
             services = opening.enter_context(open_services(settings, self._families, reach))
             server = uvicorn.Server(server_config(build_app(settings, services)))
             thread = threading.Thread(target=server.run, kwargs={"sockets": [port]})

@@ -1,25 +1,84 @@
-"""Links whose far end is a unit in memory, and an opener a test can refuse with.
+"""Links whose far end is in memory: in a test's hand, or a unit that answers; what opens them, what
+drives them, and a listener that can be waited for.
 
-The unit's time passes with every read, so a driver's thread needs no second thread beside it.
+A unit's time passes with every read, so a driver's thread needs no second thread beside it.
 """
 
 from __future__ import annotations
 
 import threading
+import time
 from typing import Protocol
 
+from backend.device.driver import Driver, LinkOpener, Listener
+from backend.device.ebl.session.session import Session
+from backend.device.ebl.session.stream_receiver import StreamPlan
 from backend.errors import LinkError
-from tests.fakes.memory_link import MemoryLink
 
 READ_STEP_S = 0.010
+# Like a kernel's serial buffer: a writer that is never read must notice.
+BUFFER_BYTES = 65536
 
 
 class Unit(Protocol):
+    """What a unit under test can do: the scripted one and the simulated one alike."""
+
     def receive(self, data: bytes) -> object: ...
 
     def transmit(self) -> bytes: ...
 
     def advance(self, seconds: float) -> None: ...
+
+
+class MemoryLink:
+    """Its other end is the attributes `arrived` and `vanish`, `say`. It passes the contract tests
+    of the real ones (tests/unit/device/test_link_contract.py)."""
+
+    def __init__(self, url: str = "memory", bits_per_second: float | None = None) -> None:
+        self.url = url
+        self.bits_per_second = bits_per_second
+        self.bits_per_second_requested: int | None = None
+        self.arrived = bytearray()  # what the host wrote
+        self.closed = False
+        self._coming = bytearray()
+        self._gone = False
+
+    def say(self, data: bytes) -> None:
+        """Send bytes towards the host."""
+        self._coming += data
+
+    def heard(self) -> bytes:
+        """Take what the host has written."""
+        data = bytes(self.arrived)
+        self.arrived.clear()
+        return data
+
+    def vanish(self) -> None:
+        """Pull the cable."""
+        self._gone = True
+
+    def set_baudrate(self, bits_per_second: int) -> None:
+        self.bits_per_second = float(bits_per_second)
+
+    def read(self, bytes_max: int = 65536) -> bytes:
+        self._check()
+        data = bytes(self._coming[:bytes_max])
+        del self._coming[:bytes_max]
+        return data
+
+    def write(self, data: bytes) -> int:
+        self._check()
+        taken = data[: BUFFER_BYTES - len(self.arrived)]
+        self.arrived += taken
+        return len(taken)
+
+    def close(self) -> None:
+        self.closed = True
+
+    def _check(self) -> None:
+        assert not self.closed, "a closed link is not used"
+        if self._gone:
+            raise LinkError(f"{self.url}: the port vanished.")
 
 
 class UnitLink(MemoryLink):
@@ -67,23 +126,6 @@ class UnitOpener:
         return self.links[-1]
 
 
-class LockstepAsUnit:
-    """The real firmware in virtual time behind the names of the fake unit."""
-
-    def __init__(self, lockstep: object) -> None:
-        self.lockstep = lockstep
-
-    def receive(self, data: bytes) -> object:
-        return self.lockstep.send(data)  # type: ignore[attr-defined]
-
-    def transmit(self) -> bytes:
-        data: bytes = self.lockstep.receive()  # type: ignore[attr-defined]
-        return data
-
-    def advance(self, seconds: float) -> None:
-        self.lockstep.advance(seconds)  # type: ignore[attr-defined]
-
-
 class Heard:
     """A listener that keeps what it hears and lets a test wait for it, never sleeping blindly."""
 
@@ -114,3 +156,8 @@ class Heard:
                 f"no {kind.__name__} {fields} among {self.events[-5:]}"
             )
             return found()[count - 1]
+
+
+def ebl_driver(opener: LinkOpener, listener: Listener, plan: StreamPlan | None = None) -> Driver:
+    """A port's thread, not started yet, for EBL without the unit that services see on top of it."""
+    return Driver(opener, listener, Session(time.monotonic(), plan or StreamPlan()))

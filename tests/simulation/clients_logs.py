@@ -31,20 +31,20 @@ class Collecting:
         self._world = clients.world
         self._chance = random.Random(f"{clients.world.seed} logs")
         self._parts: dict[tuple[int, int], bytes] = {}
-        self._under_way: tuple[RideLog, LogReceiver, bytes] | None = None
+        self._pending: tuple[RideLog, LogReceiver, bytes] | None = None
         self._session = 0
         self._asking = False
 
     @property
     def idle(self) -> bool:
         """Whether nothing is being fetched."""
-        return self._under_way is None and not self._asking
+        return self._pending is None and not self._asking
 
     def step(self) -> None:
         """Take what has come."""
-        if self._under_way is None:
+        if self._pending is None:
             return
-        log, receiver, truth = self._under_way
+        log, receiver, truth = self._pending
         key = (log.log_id, log.generation)
         self._parts[key] = self._parts.get(key, b"") + b"".join(receiver.take_segments())
         if receiver.failure is not None:
@@ -112,20 +112,20 @@ class Collecting:
             return
         self._session = self._session % SESSIONS + 1
         receiver = LogReceiver(self._session, world.now_s)
-        self._under_way = (log, receiver, stored.data)
+        self._pending = (log, receiver, stored.data)
         world.session.receive_log(receiver)
         name = self._clients.name(f"log {log.log_id}")
         world.tell("host", f"{name}: fetched from byte {len(part)} of {log.length}")
 
         def failed(error: BaseException) -> None:
             self._clients.told(name, error)
-            if self._under_way is not None and self._under_way[1] is receiver:
+            if self._pending is not None and self._pending[1] is receiver:
                 self._end()
 
         world.ask(name, receive_log(log, receiver, len(part)), lambda _: None, failed)
 
     def _end(self) -> None:
-        self._under_way = None
+        self._pending = None
         self._world.session.receive_log(None)
 
     def _has(self, log: RideLog, truth: bytes, data: bytes) -> None:

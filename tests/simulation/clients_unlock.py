@@ -9,11 +9,9 @@ from typing import TYPE_CHECKING
 from backend.device.configuration import ConfigImage
 from backend.device.ebl.operations.config_transaction import CommitUnanswered, write_config
 from backend.errors import ConfigConflict, PeerProtocolError, TokenNeeded
-from firmware_protocol._generated import Access
 from firmware_protocol.layout import Value
-from firmware_protocol.spelling import member_of
-from firmware_protocol.unlock_token import Challenge, Token
-from tests.fakes.maker import Maker
+from firmware_protocol.unlock_token import Token
+from tests.fakes.maker import Maker, challenge_of
 from tests.simulation.checker import MARKER, Intent
 from tests.simulation.earlier_boot import MAKER
 
@@ -151,15 +149,3 @@ class Unlocking:
 
         operation = write_config(base, changes, world.session.mtu, token=token)
         world.ask(name, operation, clients.know, failed)
-
-
-def challenge_of(error: TokenNeeded) -> Challenge:
-    """What is to be signed, as the error carries it to the maker."""
-    asked = error.challenge
-    return Challenge(
-        bytes.fromhex(str(asked["uid"])),
-        bytes.fromhex(str(asked["nonce"])),
-        member_of(Access, str(asked["level"])),
-        int(asked["expires_us"]),
-        bytes.fromhex(str(asked["image"])),
-    )

@@ -94,13 +94,13 @@ def test_a_host_that_repeats_under_a_new_number_is_found(monkeypatch: pytest.Mon
 
     def renumbered(self: RequestTable, entry: Any, now_s: float) -> bytes:
         if entry.attempts_left < entry.question.attempts:
-            while self._next_tid in self._under_way:
+            while self._next_tid in self._pending:
                 self._next_tid = self._next_tid % 255 + 1
             entry.tid = self._next_tid
             self._next_tid = self._next_tid % 255 + 1
-            entries = list(self._under_way.values())
-            self._under_way.clear()
-            self._under_way.update({each.tid: each for each in entries})
+            entries = list(self._pending.values())
+            self._pending.clear()
+            self._pending.update({each.tid: each for each in entries})
         return send(self, entry, now_s)
 
     monkeypatch.setattr(RequestTable, "_send", renumbered)

@@ -12,8 +12,8 @@ from backend.device.identity import Identity
 from backend.device.states import LinkState
 from sim_device.lockstep import LockstepUnit
 from tests.fakes.bench import Bench
+from tests.fakes.simulated_unit import LockstepAsUnit
 from tests.fakes.unit import FakeUnit
-from tests.fakes.unit_link import LockstepAsUnit
 
 
 def identity(bench: Bench) -> Identity:

@@ -16,33 +16,27 @@ from firmware_protocol.codec import Stream, decode
 from firmware_protocol.framing import FrameDecoder, encode_frame
 from sim_device.lockstep import LockstepUnit
 from tests.fakes.bench import Bench
-from tests.fakes.unit_link import LockstepAsUnit
+from tests.fakes.simulated_unit import LockstepAsUnit
 
 STEP_S = 0.010
 
 
-class Wire:
+class Wire(LockstepAsUnit):
     """The unit behind a wire that loses stream frames and stalls."""
 
     def __init__(self, losses: list[int]) -> None:
-        self.unit = LockstepAsUnit(LockstepUnit(seed=1))
+        super().__init__(LockstepUnit(seed=1))
         self.stalled = False
         self.destroyed: list[tuple[int, int]] = []  # epoch and sequence number
         self._losses = losses
         self._seen = 0
         self._decoder = FrameDecoder()
 
-    def receive(self, data: bytes) -> object:
-        return self.unit.receive(data)
-
-    def advance(self, seconds: float) -> None:
-        self.unit.advance(seconds)
-
     def transmit(self) -> bytes:
         if self.stalled:
             return b""
         out = b""
-        for frame in self._decoder.feed(self.unit.transmit()):
+        for frame in self._decoder.feed(super().transmit()):
             message = decode(frame)
             if isinstance(message, Stream):
                 self._seen += 1

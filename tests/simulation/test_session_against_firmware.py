@@ -48,8 +48,7 @@ from firmware_protocol.layout import Value
 from firmware_protocol.parameters import default_config
 from sim_device.lockstep import LockstepUnit
 from tests.fakes.bench import Bench, bytewise
-from tests.fakes.new_unit import new_unit_config
-from tests.fakes.unit_link import LockstepAsUnit
+from tests.fakes.simulated_unit import LockstepAsUnit, new_unit_config
 
 
 def bench_with(unit: LockstepUnit, plan: StreamPlan | None = None) -> Bench:

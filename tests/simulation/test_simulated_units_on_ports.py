@@ -30,6 +30,20 @@ def devices(tmp_path: Path) -> Iterator[Devices]:
     devices.close()
 
 
+@pytest.fixture
+def children(monkeypatch: pytest.MonkeyPatch) -> list[SimulatedLink]:
+    """The links that are opened from now on, each to a process of its own."""
+    children: list[SimulatedLink] = []
+    start = SimulatedLink.__init__
+
+    def noted(self: SimulatedLink, *arguments: object, **options: object) -> None:
+        start(self, *arguments, **options)  # type: ignore[arg-type]
+        children.append(self)
+
+    monkeypatch.setattr(SimulatedLink, "__init__", noted)
+    return children
+
+
 def test_two_simulated_units_stream_side_by_side(devices: Devices) -> None:
     left = devices.add("sim:left", WAIT_S)
     right = devices.add("sim:right", WAIT_S)
@@ -47,16 +61,8 @@ def test_two_simulated_units_stream_side_by_side(devices: Devices) -> None:
 
 
 def test_a_simulated_unit_that_dies_comes_back_with_its_configuration(
-    devices: Devices, monkeypatch: pytest.MonkeyPatch
+    devices: Devices, children: list[SimulatedLink]
 ) -> None:
-    children: list[SimulatedLink] = []
-    start = SimulatedLink.__init__
-
-    def noted(self: SimulatedLink, *arguments: object, **options: object) -> None:
-        start(self, *arguments, **options)  # type: ignore[arg-type]
-        children.append(self)
-
-    monkeypatch.setattr(SimulatedLink, "__init__", noted)
     device = devices.add("sim:mortal?scenario=none", WAIT_S)
     tuning = Tuning(devices, MemoryRevisions())
     tuning.write_config(device.id, {"pedal_stop_ms": 240}, "to be kept")
@@ -72,16 +78,8 @@ def test_a_simulated_unit_that_dies_comes_back_with_its_configuration(
 
 
 def test_removing_a_simulated_unit_ends_its_process(
-    devices: Devices, monkeypatch: pytest.MonkeyPatch
+    devices: Devices, children: list[SimulatedLink]
 ) -> None:
-    children: list[SimulatedLink] = []
-    start = SimulatedLink.__init__
-
-    def noted(self: SimulatedLink, *arguments: object, **options: object) -> None:
-        start(self, *arguments, **options)  # type: ignore[arg-type]
-        children.append(self)
-
-    monkeypatch.setattr(SimulatedLink, "__init__", noted)
     device = devices.add("sim:short", WAIT_S)
 
     devices.remove(device.id)

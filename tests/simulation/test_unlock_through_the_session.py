@@ -5,58 +5,28 @@ Method: the host's session against the unit's firmware in virtual time.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import pytest
 
 from backend.device.ebl.operations.config_transaction import read_config, write_config
 from backend.errors import AccessDenied, NotStandingStill, TokenNeeded
-from firmware_protocol._generated import Access
 from firmware_protocol.layout import Value
-from firmware_protocol.spelling import member_of
-from firmware_protocol.unlock_token import Challenge, Token
+from firmware_protocol.unlock_token import Token
 from sim_device.lockstep import LockstepUnit
 from tests.fakes.bench import Bench
-from tests.fakes.maker import Maker
+from tests.fakes.maker import Maker, challenge_of
+from tests.fakes.simulated_unit import LockstepAsUnit
 
 MAKER = Maker()
 RAISED: dict[str, Value] = {"assist_cutoff_kmh": 25.0}
 LOWERED: dict[str, Value] = {"assist_cutoff_kmh": 20.0}
 
 
-@dataclass
-class Line:
-    """A lockstep unit in the words of the bench."""
-
-    unit: LockstepUnit
-
-    def receive(self, data: bytes) -> None:
-        self.unit.send(data)
-
-    def transmit(self) -> bytes:
-        return self.unit.receive()
-
-    def advance(self, seconds: float) -> None:
-        self.unit.advance(seconds)
-
-
 def lowered(key: bytes | None) -> Bench:
     """A connected unit whose dealer has lowered the cut-off."""
-    bench = Bench(Line(LockstepUnit(unlock_key=key))).connect()
+    bench = Bench(LockstepAsUnit(LockstepUnit(unlock_key=key))).connect()
     bench.ask(write_config(bench.ask(read_config()), LOWERED))
     bench.run(2.5)
     return bench
-
-
-def challenge_of(error: TokenNeeded) -> Challenge:
-    asked = error.challenge
-    return Challenge(
-        bytes.fromhex(str(asked["uid"])),
-        bytes.fromhex(str(asked["nonce"])),
-        member_of(Access, str(asked["level"])),
-        int(asked["expires_us"]),
-        bytes.fromhex(str(asked["image"])),
-    )
 
 
 def refusal(bench: Bench, changes: dict[str, Value], token: Token | None = None) -> AccessDenied:
@@ -81,7 +51,7 @@ def test_the_refusal_names_the_limit_and_carries_what_must_be_signed() -> None:
 
 def test_a_token_shown_to_a_riding_bike_waits_until_it_stands() -> None:
     unit = LockstepUnit(unlock_key=MAKER.public_key)
-    bench = Bench(Line(unit)).connect()
+    bench = Bench(LockstepAsUnit(unit)).connect()
     bench.ask(write_config(bench.ask(read_config()), LOWERED))
     bench.run(2.5)
     unit.rider("legs", 30.0)

@@ -261,7 +261,7 @@ class World:
         held = {
             "events": (len(session._events), EVENTS_MAX),
             "waiting requests": (len(table._waiting), WAITING_MAX),
-            "requests under way": (len(table._under_way), max(1, table.outstanding_max)),
+            "requests under way": (len(table._pending), max(1, table.outstanding_max)),
             "operations": (len(session._runner._running), RUNNING_MAX),
             "bytes to send": (len(session._out), OUT_BYTES_MAX),
             "bytes of half a frame": (len(session._decoder._pending), 600),

@@ -6,11 +6,8 @@ gains are those of tables with one label in every cell, whose weighted average i
 
 from __future__ import annotations
 
-from typing import Any
-
 import pytest
 
-from backend.errors import RequestRefused
 from backend.tuning.models.law import FuzzyTable
 from spindle.client import Spindle, Unit
 from tests.fakes.server import WRITES_EVERY_S, SpindleServer
@@ -71,16 +68,6 @@ def test_each_mode_gets_the_gain_of_the_table_it_uses(unit: Unit) -> None:
     assert live_gain(unit, mode=4) == pytest.approx(GAIN_SECOND, abs=0.001)
 
 
-def test_the_second_table_can_be_tried_and_given_up(unit: Unit) -> None:
-    second = unit.fuzzy_table("second")
-
-    tried = unit.write_fuzzy_table(flat(second, GAIN_SECOND), "second", "try", confirm_s=120)
-    assert tried.state == "provisional"
-    unit.roll_back()
-
-    assert unit.fuzzy_table("second") == second
-
-
 def test_a_change_of_the_second_table_made_for_an_older_configuration_is_refused(
     server: SpindleServer, device: str, unit: Unit
 ) -> None:
@@ -99,19 +86,6 @@ def test_a_change_of_the_second_table_made_for_an_older_configuration_is_refused
     assert unit.fuzzy_table("second").name == response.json()["name"]
 
 
-def test_points_that_both_share_are_refused_by_name_and_nothing_is_written(unit: Unit) -> None:
-    before = unit.config()
-    moved = unit.fuzzy_table("second").model_copy(
-        update={"speed_points_kmh": [5.0, 10.0, 15.0, 20.0, 24.0], "name": "moved"}
-    )
-
-    with pytest.raises(RequestRefused) as refused:
-        unit.write_fuzzy_table(moved, "second")
-
-    assert [fault.field for fault in refused.value.fields] == ["speed_points_kmh"]
-    assert unit.config() == before
-
-
 @pytest.mark.parametrize("method", ["GET", "PUT"])
 def test_a_table_the_unit_does_not_have_is_refused_by_name(
     server: SpindleServer, device: str, method: str
@@ -123,37 +97,3 @@ def test_a_table_the_unit_does_not_have_is_refused_by_name(
 
     assert response.status_code == 422
     assert [fault["field"] for fault in response.json()["errors"]] == ["table"]
-
-
-def test_what_the_unit_says_of_its_limits_is_what_the_linter_judges(
-    server: SpindleServer, device: str, unit: Unit
-) -> None:
-    limits = server.get(f"/devices/{device}/parts/limits")
-    assert (limits["market"], limits["effective_assist_cutoff_kmh"]) == ("eu_epac", 25.0)
-    assert unit.limits().effective_assist_cutoff_kmh == 25.0
-
-    def codes(market: str) -> set[str]:
-        question: dict[str, Any] = {
-            "fuzzy_table": server.get(f"/devices/{device}/parts/fuzzy_table"),
-            "assist_modes": server.get(f"/devices/{device}/parts/assist_modes"),
-            "limits": limits | {"market": market},
-        }
-        report = server.ask("POST", "/lint", json=question)
-        return {finding["code"] for kind in report.values() for finding in kind}
-
-    told = {"cutoff_above_market", "peak_above_market", "ratio_above_market"}
-    assert told <= codes("japan")
-    assert not told & codes("eu_epac")
-
-
-def test_the_market_is_the_maker_s_and_not_changed_with_the_limits(
-    server: SpindleServer, device: str, unit: Unit
-) -> None:
-    limits = server.get(f"/devices/{device}/parts/limits")
-
-    response = server.client.put(
-        f"/devices/{device}/parts/limits", json=limits | {"market": "japan"}
-    )
-
-    assert response.status_code == 403
-    assert server.get(f"/devices/{device}/parts/limits") == limits

@@ -15,8 +15,8 @@ from typing import Any
 
 import pytest
 
+from tests.fakes.api import description
 from tests.fakes.command import spindle
-from tests.fakes.description import description
 from tests.fakes.server import ServerHere, SpindleServer
 
 pytestmark = pytest.mark.slow

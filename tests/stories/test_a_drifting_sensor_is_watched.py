@@ -78,9 +78,3 @@ def test_a_drift_is_seen_calibrated_and_gone(server: SpindleServer) -> None:
     server.ask("DELETE", f"/rides/{again['latest']['ride_id']}")
     assert drift(server, device)["latest"] is None
     assert len(drift(server, device)["rides"]) == 3
-
-
-def test_a_unit_nobody_knows_has_no_drift(server: SpindleServer) -> None:
-    refused = server.client.get("/devices/nobody/sensor-drift")
-
-    assert (refused.status_code, refused.json()["code"]) == (404, "not_found")

@@ -13,8 +13,8 @@ from backend.device.driver import Driver
 from backend.device.ebl.session.operation import query
 from backend.device.link import Opener
 from firmware_protocol._generated import AliveRequest, AliveResponse
-from tests.fakes.ebl_driver import ebl_driver
 from tests.fakes.server import eventually
+from tests.fakes.unit_link import ebl_driver
 
 PATIENCE_S = 30.0
 

@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 from backend.core.ride import Ride
-from backend.formats import ImportedRide, Outcome
+from backend.formats import ImportedRide
 from backend.formats.formats import read_file
 from backend.imports.service import Uploads
 from backend.imports.unit_logs import Collect
@@ -29,7 +29,9 @@ from backend.units.records import UnitStore
 from backend.units.service import Devices
 from sim_device.lockstep import LockstepUnit
 from tests.fakes.server import eventually
+from tests.fakes.simulated_unit import LockstepAsUnit
 from tests.fakes.unit_link import UnitOpener
+from tests.fakes.uploading import read_here
 
 URL = "socket://unit:1"
 AWAY_S = 30.0
@@ -39,36 +41,33 @@ PIECE_S, PIECES = 0.1, 5
 MISSING = -32768
 
 
-class UnitInTime:
+class UnitInTime(LockstepAsUnit):
     """A unit whose time passes only as far as it is told to, while its host reads; `goes_by`: or
     with every read, as it must for a host that waits for the unit's flash."""
 
-    def __init__(self, lockstep: LockstepUnit) -> None:
-        self._lockstep = lockstep
+    def __init__(self, unit: LockstepUnit) -> None:
+        super().__init__(unit)
         self._said = bytearray()
         self.owed_s = 0.0
         self.goes_by = False
 
-    def receive(self, data: bytes) -> object:
-        return self._lockstep.send(data)
-
     def transmit(self) -> bytes:
-        self._said += self._lockstep.receive()
+        self._said += self.unit.receive()
         said = bytes(self._said)
         self._said.clear()
         return said
 
     def advance(self, seconds: float) -> None:
         if self.goes_by:
-            self._lockstep.advance(seconds)
+            self.unit.advance(seconds)
         elif self.owed_s <= 0.0:
-            self._lockstep.poll()
+            self.unit.poll()
         for _ in range(PIECES):
             if self.owed_s <= 0.0:
                 break
             # What the unit says meanwhile fits its queue.
-            self._lockstep.advance(PIECE_S)
-            self._said += self._lockstep.receive()
+            self.unit.advance(PIECE_S)
+            self._said += self.unit.receive()
             self.owed_s -= PIECE_S
 
 
@@ -106,10 +105,6 @@ class Desk:
     def only_ride(self) -> Ride:
         (ride,) = self.store.rides.list().items
         return ride
-
-
-def read_here(path: Path, name: str) -> Outcome:
-    return read_file(name, path.read_bytes())
 
 
 @pytest.fixture

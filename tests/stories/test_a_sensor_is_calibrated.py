@@ -20,7 +20,7 @@ from backend.calibration.describe import has_record
 from backend.cli import main
 from tests.fakes.relay import Relay
 from tests.fakes.server import ServerHere, ServerProcess, eventually
-from tests.fakes.unit_on_port import UnitOnPort
+from tests.fakes.simulated_unit import UnitOnPort
 
 pytestmark = pytest.mark.slow
 

@@ -11,12 +11,11 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import httpx
 import pytest
 from websockets.sync.client import connect
 
 from backend.device.families import FAMILIES
-from tests.fakes.server import ServerHere, eventually
+from tests.fakes.server import ServerHere, SpindleServer, eventually
 from tests.fakes.tiny.motor import SETTINGS, TinyMotor, listening
 from tests.fakes.tiny.unit import TinyUnit
 
@@ -45,16 +44,15 @@ CANNOT = [
 class Workshop:
     """A dealer's browser, and the motor on the bench."""
 
-    def __init__(self, client: httpx.Client, motor: TinyMotor, url: str) -> None:
-        self.client = client
+    def __init__(self, server: SpindleServer, motor: TinyMotor, url: str) -> None:
+        self.server = server
+        self.client = server.client
         self.motor = motor
         self.url = url
 
     def ask(self, method: str, path: str, body: object = None) -> Any:
         """The JSON of a request that must succeed."""
-        response = self.client.request(method, path, json=body)
-        assert response.is_success, f"{method} {path}: {response.status_code} {response.text}"
-        return response.json() if response.content else None
+        return self.server.ask(method, path, json=body)
 
     def refused(self, method: str, path: str, body: object = None) -> tuple[int, dict[str, Any]]:
         """Status and problem of a request that must not."""
@@ -80,7 +78,7 @@ def workshop(tmp_path: Path) -> Iterator[Workshop]:
         listening(motor) as url,
         ServerHere(tmp_path, families={**FAMILIES, TinyUnit.family: TinyUnit}) as server,
     ):
-        yield Workshop(server.client, motor, url)
+        yield Workshop(server, motor, url)
 
 
 def test_it_says_what_it_is_and_what_it_can_do(workshop: Workshop) -> None:

@@ -8,12 +8,9 @@ Method: two simulated units, factory-fresh, one after the other behind one addre
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 from urllib.parse import quote
-
-import pytest
 
 from tests.fakes.cable import A, B, Cable
 from tests.fakes.command import spindle
@@ -31,12 +28,6 @@ FOR_A_UNIT = [
     ("POST", "logs/1/download", None),
     ("DELETE", "logs/1", None),
 ]
-
-
-@pytest.fixture
-def cable(tmp_path: Path) -> Iterator[Cable]:
-    with Cable(tmp_path) as made:
-        yield made
 
 
 def ask(cable: Cable, method: str, path: str, headers: dict[str, str], body: Any = None) -> Any:

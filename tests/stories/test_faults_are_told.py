@@ -16,12 +16,6 @@ def test_a_sound_bike_has_no_fault_and_nothing_to_forget(
     assert server.ask("POST", f"/devices/{device}/faults/clear")["items"] == []
 
 
-def test_faults_of_a_unit_that_is_not_there_are_no_faults(server: SpindleServer) -> None:
-    response = server.client.post("/devices/nobody/faults/clear")
-
-    assert (response.status_code, response.json()["code"]) == (404, "not_found")
-
-
 def test_the_link_s_books_balance_and_its_clock_is_known(
     server: SpindleServer, device: str
 ) -> None:

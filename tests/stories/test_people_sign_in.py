@@ -15,6 +15,7 @@ import httpx
 import pytest
 from websockets.sync.client import connect
 
+from spindle.client import Spindle
 from tests.fakes.command import spindle
 from tests.fakes.server import ServerHere, ServerProcess, eventually
 
@@ -92,9 +93,9 @@ def test_a_workshop_opens_its_server_to_the_network(tmp_path: Path) -> None:
 
 def a_program_watches_by_a_ticket(url: str, key: str) -> None:
     """Opens the live stream of the one unit without a header: where it stands comes first."""
-    bearer = {"authorization": f"Bearer {key}"}
-    device = httpx.get(f"{url}/api/v1/devices", headers=bearer).json()["items"][0]["id"]
-    ticket = httpx.post(f"{url}/api/v1/tickets", headers=bearer).json()["ticket"]
+    program = Spindle(url, key)
+    device = program.unit().id
+    ticket = program.server.ask("POST", "/tickets")["ticket"]
     live = f"{url.replace('http', 'ws')}/api/v1/devices/{device}/live?ticket={ticket}"
     with connect(live, open_timeout=30) as socket:
         assert socket.recv(timeout=30)

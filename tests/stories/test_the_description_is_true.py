@@ -18,7 +18,7 @@ from typing import Any
 import pytest
 
 from tests import counts
-from tests.fakes.description import description
+from tests.fakes.api import description
 from tests.fakes.server import ServerHere, SpindleServer
 
 pytestmark = [pytest.mark.slow, pytest.mark.large_count]

@@ -96,7 +96,7 @@ def test_every_route_is_described_with_an_id_and_one_kind_of_refusal(
 
 
 def test_the_documentation_loads_nothing_from_elsewhere(server: SpindleServer) -> None:
-    page = httpx.get(f"{server.url}/api/docs", trust_env=False).text
+    page = server.client.get(f"{server.url}/api/docs").text
 
     assert "list_rides" not in page or "<script" not in page
     assert "https://" not in page
@@ -138,8 +138,7 @@ def test_a_request_names_no_file_of_this_machine(
 ) -> None:
     wanted = tmp_path / "wanted"
 
-    address = f"{server.url}/api/v1/devices"
-    response = httpx.post(address, json={"url": f"sim:a#b?{setting}={wanted}"})
+    response = server.client.post("/devices", json={"url": f"sim:a#b?{setting}={wanted}"})
 
     assert response.status_code == 422
     assert response.json()["errors"][0]["field"] == "url"

@@ -20,10 +20,10 @@ REST_S = 40
 
 @pytest.fixture(scope="module")
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SpindleServer]:
-    """Three units in virtual time that stand still, and one whose clock is real."""
+    """Three units in virtual time that stand still."""
     devices = [f"sim:{name}?clock=virtual&scenario=none" for name in ("one", "two", "three")]
-    with ServerHere(tmp_path_factory.mktemp("virtual"), [*devices, "sim:real"]) as running:
-        running.all_ready(4)
+    with ServerHere(tmp_path_factory.mktemp("virtual"), devices) as running:
+        running.all_ready(3)
         yield running
 
 
@@ -68,21 +68,6 @@ def test_time_passes_only_when_it_is_told_to(server: SpindleServer) -> None:
     assert later["advance_left_s"] == 0.0
 
 
-def test_a_mass_hangs_on_a_pedal_and_the_unit_tells_its_torque(server: SpindleServer) -> None:
-    device = named(server, "three")
-    exact = {"mass_limit_share": 0.0, "arm_limit_m": 0.0, "angle_limit_deg": 0.0}
-    said = {"side": "left", "mass_kg": 30.0, "crank_angle_deg": 60.0, "arm_m": 0.17, **exact}
-
-    hung = server.simulate(device, workbench=said)
-    server.advance(device, 30.0)
-    told = server.get(f"/devices/{device}/snapshot")["channels"]
-    free = server.simulate(device, workbench=None)
-
-    assert (hung["workbench"], free["workbench"]) == (said, None)
-    # m g l cos(angle), thesis eq. 3.22.
-    assert told["rider_torque_nm"] == pytest.approx(30.0 * 9.80665 * 0.17 * 0.5, abs=0.05)
-
-
 def test_a_ride_in_virtual_time_is_recorded_whole_and_twice_the_same(
     server: SpindleServer,
 ) -> None:
@@ -114,24 +99,3 @@ def test_the_dashboard_has_ridden_as_far_as_the_record_says(server: SpindleServe
     assert seen["missing_s"] == 0.0
     assert seen["speed_kmh"] == 0.0
     assert seen["range_km"] is None
-
-
-def test_a_clock_that_runs_by_itself_is_left_alone(server: SpindleServer) -> None:
-    device = named(server, "real")
-
-    response = server.client.post(f"/devices/{device}/simulation/advance", json={"seconds": 1})
-
-    assert response.status_code == 409
-    assert "clock" in response.json()["detail"]
-
-
-@pytest.mark.parametrize("seconds", [0, -1, 86_401, "long"])
-def test_a_time_that_cannot_pass_is_refused_by_name(server: SpindleServer, seconds: Any) -> None:
-    device = named(server, "three")
-
-    response = server.client.post(
-        f"/devices/{device}/simulation/advance", json={"seconds": seconds}
-    )
-
-    assert response.status_code == 422
-    assert response.json()["errors"][0]["field"] == "seconds"

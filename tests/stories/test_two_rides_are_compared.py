@@ -79,14 +79,3 @@ def test_torque_round_the_crank_is_told_of_both(pair: tuple[SpindleServer, list[
     assert (told["a_refused"], told["b_refused"]) == (None, None)
     apart = [b - a for a, b in zip(told["a"]["rider_nm"], told["b"]["rider_nm"], strict=True)]
     assert told["difference"]["rider_nm"] == pytest.approx(apart)
-
-
-def test_what_is_no_ride_or_no_window_is_refused(pair: tuple[SpindleServer, list[int]]) -> None:
-    server, (a, _) = pair
-    for params, status in (
-        ({"a": a, "b": 999}, 404),
-        ({"a": a}, 422),
-        ({"a": a, "b": a, "b_from_s": 9000}, 422),
-        ({"a": a, "b": a, "a_from_s": 20, "a_to_s": 10}, 422),
-    ):
-        assert server.client.get("/rides/compare", params=params).status_code == status, params

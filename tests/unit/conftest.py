@@ -13,13 +13,18 @@ from backend.store.objects import Disk
 OpenStore = Callable[..., Store]
 
 
+def urls(folder: Path, database: str = "spindle.db") -> tuple[str, str]:
+    """Of a store's database and of its objects."""
+    return f"sqlite:///{folder}/{database}", (folder / "objects").as_uri()
+
+
 @pytest.fixture
 def reopen(tmp_path: Path) -> Iterator[OpenStore]:
     """Opens the same folder, again and again; what is still open at the end is closed."""
     opened: list[Store] = []
 
     def work(disk: Disk | None = None) -> Store:
-        store = open_store(f"sqlite:///{tmp_path}/spindle.db", f"file://{tmp_path}/objects", disk)
+        store = open_store(*urls(tmp_path), disk)
         opened.append(store)
         return store
 

@@ -21,7 +21,7 @@ from firmware_protocol.framing import encode_frame
 from sim_device.firmware.python import wire
 from sim_device.lockstep import LockstepUnit
 from tests.fakes.bench import Bench
-from tests.fakes.unit_link import LockstepAsUnit
+from tests.fakes.simulated_unit import LockstepAsUnit
 from tools.bench.figures import Figure, best_of
 
 HERE = Path(__file__).resolve().parent

@@ -9,16 +9,13 @@ import http.client
 import threading
 import time
 from collections.abc import Callable, Iterator
-from types import SimpleNamespace
-from typing import Any, cast
+from typing import Any
 
 import pytest
 
-from backend.app import build_api
 from backend.errors import NotFound, RequestRefused
-from backend.services import Services
-from backend.web.app import WebSettings
 from backend.web.connections import PatientProtocol
+from tests.fakes.api import api_with
 from tests.unit.api.test_connections import PATIENCE_S, serving
 
 pytestmark = pytest.mark.slow
@@ -54,9 +51,7 @@ def working() -> Working:
 
 @pytest.fixture
 def asking(working: Working) -> Iterator[http.client.HTTPConnection]:
-    services = cast(Services, SimpleNamespace(ride_again=working))
-    app = build_api(WebSettings("test"), services)
-    with serving(PatientProtocol, app) as (host, port):
+    with serving(PatientProtocol, api_with(ride_again=working)) as (host, port):
         connection = http.client.HTTPConnection(host, port, timeout=PATIENCE_S)
         yield connection
         connection.close()

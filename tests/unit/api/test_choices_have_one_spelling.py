@@ -11,15 +11,14 @@ from typing import Any
 
 import pytest
 
-from backend.app import build_api
 from backend.calibration.setup import CLASS_SHARE
 from backend.core.assist_mode import LAWS, TAPERS
 from backend.core.fuzzy_table import INFERENCES, THESIS_TABLE
 from backend.law import law_defaults
 from backend.tuning.models.law import AssistMode, FuzzyTable, UnitLimits
-from backend.web.app import WebSettings
 from firmware_protocol._generated import Inference, Law, Market, Taper
 from firmware_protocol.spelling import RULE_LABELS, words_of
+from tests.fakes.api import description
 
 LIMITS = {
     name: law_defaults()[name]
@@ -40,7 +39,7 @@ def choices(node: Any) -> Iterator[str]:
 
 @pytest.mark.slow
 def test_every_enumeration_of_the_description_is_in_lower_case() -> None:
-    found = set(choices(build_api(WebSettings(version="0")).openapi()))
+    found = set(choices(description()))
 
     assert {"mamdani_centroid", "eu_epac", "factory", "latched"} <= found
     assert found >= RULE_LABELS

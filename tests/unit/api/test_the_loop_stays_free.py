@@ -16,9 +16,8 @@ import pytest
 from anyio.from_thread import start_blocking_portal
 from pydantic import BaseModel
 
-from backend.app import build_api
 from backend.web import responses as large
-from backend.web.app import WebSettings
+from tests.fakes.api import api_with
 from tests.unit.api.sample_rides import SAMPLE_RIDE
 
 # A store for every test, or a crowd of requests: left out of `make test-fast`.
@@ -49,18 +48,12 @@ class HeldRides:
     list = get = figure = held
 
 
-class Desk:
-    def __init__(self, rides: HeldRides) -> None:
-        self.rides = rides
-
-
 @pytest.mark.parametrize("path", ASKED)
 def test_while_rides_are_read_others_are_answered(
     path: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     rides = HeldRides(ASKED[path])
-    services: Any = Desk(rides)
-    app = build_api(WebSettings("0"), services)
+    app = api_with(rides=rides)
     made_on: list[str] = []
     make: Callable[[type[BaseModel], Any], Any] = large.json_response
 

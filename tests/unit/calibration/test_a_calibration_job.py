@@ -8,7 +8,6 @@ those of a straight sensor whose truth is compared with what is found.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -29,13 +28,6 @@ pytestmark = pytest.mark.slow
 
 GAIN, OFFSET = "sensor_gain_nm_per_count", "sensor_offset_counts"
 VERIFY = {"kind": "verify", "side": "right", "mass_kg": 30.0}
-
-
-@pytest.fixture
-def bench(tmp_path: Path) -> Iterator[Workshop]:
-    workshop = Workshop(tmp_path)
-    yield workshop
-    workshop.stop()
 
 
 def refused(error: pytest.ExceptionInfo[Any]) -> list[str]:

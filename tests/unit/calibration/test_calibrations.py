@@ -6,17 +6,13 @@ sends them.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import pytest
 from fastapi.testclient import TestClient
 
-from backend.app import build_api
 from backend.calibration.certificate import evaluate
-from backend.web.app import WebSettings
+from tests.fakes.api import api_with, client_of
 from tests.unit.calibration.calibration_job import LOADS_KG, TRUE_GAIN, Workshop
 
 pytestmark = pytest.mark.slow
@@ -33,17 +29,8 @@ SETUP: dict[str, Any] = {
 
 
 @pytest.fixture
-def bench(tmp_path: Path) -> Iterator[Workshop]:
-    workshop = Workshop(tmp_path)
-    yield workshop
-    workshop.stop()
-
-
-@pytest.fixture
 def client(bench: Workshop) -> TestClient:
-    services: Any = SimpleNamespace(calibrations=bench.use)
-    app = build_api(WebSettings(version="0", author="Ada"), services)
-    return TestClient(app, base_url="http://127.0.0.1:8750")
+    return client_of(api_with(author="Ada", calibrations=bench.use))
 
 
 def opened(client: TestClient, bench: Workshop) -> str:

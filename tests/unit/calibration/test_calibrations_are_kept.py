@@ -21,7 +21,8 @@ from backend.store.named import calibration_key
 from backend.store.objects import Disk
 from backend.store.upkeep.check import check_store
 from backend.units.records import UnitStore
-from tests.unit.conftest import OpenStore
+from tests.fakes.failing_disk import FailingDisk
+from tests.unit.conftest import OpenStore, urls
 from tests.unit.store.test_a_backup_is_a_store import unpacked
 
 UNIT = "ebl:SP-1"
@@ -29,10 +30,6 @@ UNIT = "ebl:SP-1"
 
 def same(body: Any) -> Any:
     return body
-
-
-def urls(folder: Path, database: str = "spindle.db") -> tuple[str, str]:
-    return f"sqlite:///{folder}/{database}", (folder / "objects").as_uri()
 
 
 def captured(store: Store, job_id: int, count: int = 3) -> None:
@@ -132,22 +129,13 @@ def test_a_closed_job_is_a_file_named_by_its_bytes_and_changes_no_more(store: St
 def test_a_disk_that_fails_while_closing_leaves_the_job_open(
     reopen: OpenStore, tmp_path: Path
 ) -> None:
-    class Failing(Disk):
-        fails = False
-
-        def flush_folder(self, path: Path) -> None:
-            if self.fails:
-                raise OSError("no more")
-            super().flush_folder(path)
-
-    disk = Failing()
+    disk = FailingDisk(steps=("flush_folder",))
     store = reopen(disk)
     job, _ = CalibrationStore(store).open(UNIT, None, {}, "")
     captured(store, job.id)
-    disk.fails = True
+    disk.left = 1
     with pytest.raises(StoreError):
         CalibrationStore(store).close(job.id, same, None)
-    disk.fails = False
     store.close()
 
     again = reopen()
@@ -255,21 +243,12 @@ def test_an_open_file_that_cannot_be_read_is_named_and_stays(store: Store, tmp_p
 def test_a_capture_that_cannot_be_written_beside_sql_is_refused_and_not_there(
     reopen: OpenStore,
 ) -> None:
-    class Failing(Disk):
-        fails = False
-
-        def flush_file(self, path: Path) -> None:
-            if self.fails:
-                raise OSError("no more")
-            super().flush_file(path)
-
-    disk = Failing()
+    disk = FailingDisk(steps=("flush_file",))
     store = reopen(disk)
     job, _ = CalibrationStore(store).open(UNIT, None, {}, "")
-    disk.fails = True
+    disk.left = 1
     with pytest.raises(StoreError):
         captured(store, job.id, 1)
-    disk.fails = False
 
     assert CalibrationStore(store).captures(job.id) == ()
 

@@ -8,8 +8,6 @@ gain and under another one.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -23,13 +21,6 @@ pytestmark = pytest.mark.slow
 
 GAIN = "sensor_gain_nm_per_count"
 LATER_US = 60_000_000
-
-
-@pytest.fixture
-def bench(tmp_path: Path) -> Iterator[Workshop]:
-    workshop = Workshop(tmp_path)
-    yield workshop
-    workshop.stop()
 
 
 def ride_at(view: Job, later_us: int) -> Ride:

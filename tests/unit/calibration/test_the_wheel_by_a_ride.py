@@ -9,9 +9,8 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from datetime import UTC, datetime
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -23,13 +22,12 @@ from backend.calibration.bike.service import CadenceCheck, PulseCount
 from backend.calibration.bike.types import Cadence, CertificateOfTorque
 from backend.calibration.bike.wheel_measure import TrackQuestion, WheelMeasure
 from backend.core.channels import ChannelSpec, Values
-from backend.core.ride import Ride, RideRows
+from backend.core.ride import Ride
 from backend.errors import InvalidRequest
-from backend.formats import ImportedRide, Outcome
-from backend.imports.service import Uploads
 from backend.law import law_defaults
 from backend.rides.rows import Window
-from backend.store import Store, open_store
+from backend.store import Store
+from tests.fakes.kept_rides import imported_ride
 
 SPECS = {
     "speed_kmh": ChannelSpec("speed_kmh", "km/h", 0.01),
@@ -51,28 +49,13 @@ RIDING_MS = np.where((AT_S >= 10) & (AT_S <= 610), 6.0, 0.0)
 KNOWN = ClimbInputs(mass_kg=100.0, mass_limit_kg=0.5, gravity_ms2=9.807, rise_limit_m=0.5)
 
 
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as opened:
-        yield opened
-
-
 def kept(
     store: Store, columns: Mapping[str, Values], later_s: float = 0.0, row_s: float = 1.0
 ) -> int:
     """A ride of a row every row_s. later_s: than BEGAN_US, by its device's clock; another one is
     another ride."""
-    specs = tuple(SPECS[name] for name in columns)
-    counts = {spec.name: spec.to_counts(columns[spec.name]) for spec in specs}
-    times_us = np.arange(len(next(iter(columns.values()))), dtype=np.int64)
-    times_us *= round(row_s * 1e6)
-    rows = RideRows(specs, times_us, counts)
     began_us = BEGAN_US + round(later_s * 1e6)
-    outcome = Outcome("complete", (ImportedRide(began_us, round(row_s * 1e6), rows),))
-    uploads = Uploads(store, reader=lambda path, name: outcome)
-    (ride_id,) = uploads.receive_file("a.csv", repr((later_s, columns)).encode()).ride_ids
-    uploads.close()
-    return ride_id
+    return imported_ride(store, columns, round(row_s * 1e6), began_us, SPECS)
 
 
 def told_kmh() -> Values:

@@ -14,7 +14,7 @@ from sim_device.configure import read_image
 from sim_device.lockstep import LockstepUnit
 from tests.fakes.bench import Bench
 from tests.fakes.config_flash import items_of, records_at, slot
-from tests.fakes.unit_link import LockstepAsUnit
+from tests.fakes.simulated_unit import LockstepAsUnit
 
 LOWERED = {"assist_cutoff_kmh": 19.0}
 SPENT_S = 1000 * 16_800

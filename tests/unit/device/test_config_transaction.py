@@ -2,6 +2,7 @@
 
 The unit is bent one way at a time: moving, changed by somebody else, silent at the worst moment,
 lying when read back. After every failure the unit must hold exactly what it held before.
+Nobody is told that a trial ended for the reason of the trial before it.
 """
 
 from __future__ import annotations
@@ -10,12 +11,14 @@ from collections.abc import Callable
 
 import pytest
 
-from backend.device.configuration import ConfigImage
+from backend.device.configuration import ConfigImage, TrialStatus
 from backend.device.ebl.operations.config_transaction import (
     CommitUnanswered,
     read_config,
     write_config,
 )
+from backend.device.ebl.session.unit_state import UnitState
+from backend.device.statistics import LinkStatistics
 from backend.errors import (
     AccessDenied,
     ConfigConflict,
@@ -25,9 +28,18 @@ from backend.errors import (
     PeerProtocolError,
     SpindleError,
 )
-from firmware_protocol._generated import IMAGE_LENGTH, PARAMETER_BY_NAME, MessageId, Status
-from firmware_protocol.codec import Request, decode
+from firmware_protocol._generated import (
+    IMAGE_LENGTH,
+    PARAMETER_BY_NAME,
+    ConfigProvisionalEvent,
+    ConfigRolledBackEvent,
+    MessageId,
+    Status,
+)
+from firmware_protocol._generated import Event as EventCode
+from firmware_protocol.codec import Event, Request, decode
 from firmware_protocol.framing import FrameDecoder
+from firmware_protocol.layout import Message
 from firmware_protocol.parameters import default_config
 from tests.fakes.bench import Bench
 from tests.fakes.unit import FakeUnit
@@ -218,3 +230,21 @@ def test_a_configuration_that_moves_while_it_is_read_is_read_again() -> None:
     config = bench.ask(read_config())
 
     assert config.parameters["motor_torque_nm_max"] == 0.0
+
+
+def hear(state: UnitState, seq: int, code: EventCode, message: Message) -> None:
+    state.take(Event(seq, code, 1_000_000 * seq, message), LinkStatistics(), float(seq))
+
+
+def test_a_rollback_has_no_cause_until_the_unit_was_asked() -> None:
+    state = UnitState()
+    state.refresh(0, TrialStatus(False, 7, 111, 0.0, "time_out", 8), 0.0)
+
+    hear(state, 1, EventCode.CONFIG_PROVISIONAL, ConfigProvisionalEvent(9, 222, 60))
+    assert state.trial_ends_s is not None
+    hear(state, 2, EventCode.CONFIG_ROLLED_BACK, ConfigRolledBackEvent(10, 111))
+    assert state.trial_ends_s is None
+    assert state.rollback_cause is None
+
+    state.refresh(0, TrialStatus(False, 10, 111, 0.0, "asked", 9), 3.0)
+    assert state.rollback_cause == "asked"

@@ -26,9 +26,8 @@ from backend.device.states import LinkState, StateChanged
 from backend.device.stream import StreamBlock, StreamStarted
 from backend.errors import LinkError, NoAnswer
 from firmware_protocol._generated import CfgInfoRequest, CfgInfoResponse, MessageId
-from tests.fakes.ebl_driver import ebl_driver
 from tests.fakes.unit import FakeUnit
-from tests.fakes.unit_link import Heard, UnitOpener
+from tests.fakes.unit_link import Heard, UnitOpener, ebl_driver
 
 
 @pytest.fixture

@@ -29,7 +29,7 @@ from firmware_protocol.codec import Event, Request, Response, Stream, decode
 from firmware_protocol.framing import FrameDecoder, encode_frame
 from sim_device.lockstep import LockstepUnit
 from tests.fakes.bench import Bench
-from tests.fakes.unit_link import LockstepAsUnit
+from tests.fakes.simulated_unit import LockstepAsUnit
 
 CHANGE = {"pedal_stop_ms": 240}
 
@@ -56,11 +56,10 @@ class Mortal(LockstepAsUnit):
     """The firmware, which can be restarted."""
 
     def __init__(self) -> None:
-        self.unit = LockstepUnit(seed=1)
-        super().__init__(self.unit)
+        super().__init__(LockstepUnit(seed=1))
 
     def restart(self) -> None:
-        self.lockstep = self.unit = LockstepUnit(seed=1, flash=self.unit.unit.flash(), boot_id=2)
+        self.unit = LockstepUnit(seed=1, flash=self.unit.unit.flash(), boot_id=2)
 
 
 def bench(plan: StreamPlan | None = None) -> Bench:

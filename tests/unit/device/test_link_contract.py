@@ -19,7 +19,7 @@ from backend.device.link import Link
 from backend.device.link.serial_port import SerialPort
 from backend.device.link.socket_link import SocketLink
 from backend.errors import LinkError
-from tests.fakes.memory_link import MemoryLink
+from tests.fakes.unit_link import MemoryLink
 
 EVERY_BYTE = bytes(range(256))
 PATIENCE_S = 5.0

@@ -1,7 +1,9 @@
 """Goal: a unit of another firmware is tuned where that is safe, looked at where it is not, and told
-apart with the reason in words; what was read of it once is not read again.
+apart with the reason in words; what was read of it once is not read again. A fault this Spindle has
+no name for is listed like any other, as long as it is active.
 
-Method: the small honest unit with a schema made from the registry by one change.
+Method: the small honest unit with a schema made from the registry by one change; for faults the
+operation is driven by hand, answered as the unit's firmware would.
 """
 
 from __future__ import annotations
@@ -15,11 +17,23 @@ from typing import Any
 
 import pytest
 
+from backend.device.ebl.faults import NAME_OF_BIT, fault_names
 from backend.device.ebl.operations.config_transaction import read_config, write_config
+from backend.device.ebl.operations.fault_frames import fault_frames
+from backend.device.ebl.session.operation import Question
 from backend.device.ebl.session.stream_receiver import StreamPlan
+from backend.device.faults import Fault
 from backend.device.states import LinkState
 from backend.store.schemas import SCHEMAS_MAX, SchemaFiles
-from firmware_protocol._generated import MessageId
+from firmware_protocol._generated import (
+    EvtFaultFreezeRequest,
+    EvtFaultListRequest,
+    EvtFaultListResponse,
+    FaultFlags,
+    MessageId,
+    Status,
+)
+from firmware_protocol.codec import Response
 from firmware_protocol.framing import FrameDecoder, encode_frame
 from firmware_protocol.generate.registry import load
 from tests.fakes.bench import Bench
@@ -207,3 +221,39 @@ def test_a_disk_that_refuses_costs_the_memory_only(tmp_path: Path) -> None:
     kept["0" * 16] = b"known"
 
     assert kept["0" * 16] == b"known"
+
+
+NEWER_BIT = 30  # the last one that is ever given
+
+
+def answer(asked: Question, active: int) -> Response:
+    """What a unit says that keeps no freeze frame."""
+    if isinstance(asked.message, EvtFaultListRequest):
+        return Response(1, asked.message.MESSAGE_ID, Status.OK, 0, EvtFaultListResponse(active))
+    assert isinstance(asked.message, EvtFaultFreezeRequest)
+    return Response(1, asked.message.MESSAGE_ID, Status.NOT_FOUND)
+
+
+def listed(active: int) -> list[Fault]:
+    operation = fault_frames()
+    try:
+        questions = next(operation)
+        while True:
+            questions = operation.send([answer(question, active) for question in questions])
+    except StopIteration as done:
+        return list(done.value)
+
+
+def test_an_unknown_fault_is_named_by_its_bit() -> None:
+    assert NEWER_BIT not in NAME_OF_BIT
+
+    assert fault_names(FaultFlags.TORQUE_SENSOR | 1 << NEWER_BIT) == ("torque_sensor", "fault_30")
+
+
+def test_an_active_fault_of_a_newer_firmware_is_listed() -> None:
+    found = listed(FaultFlags.TORQUE_SENSOR | 1 << NEWER_BIT)
+
+    assert [(one.name, one.active) for one in found] == [
+        ("torque_sensor", True),
+        ("fault_30", True),
+    ]

@@ -25,9 +25,8 @@ from backend.device.states import LinkState, StateChanged
 from backend.device.stream import StreamBlock
 from backend.errors import LinkError
 from tests.fakes.bench import Bench
-from tests.fakes.ebl_driver import ebl_driver
 from tests.fakes.unit import FakeUnit
-from tests.fakes.unit_link import Heard
+from tests.fakes.unit_link import Heard, ebl_driver
 
 PAGE = Path(__file__).resolve().parents[3] / "docs" / "life-of-a-packet.md"
 

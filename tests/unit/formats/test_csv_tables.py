@@ -9,15 +9,10 @@ import numpy as np
 import pytest
 
 from backend.formats.formats import read_file
-from backend.formats.outcome import COMPLETE, PARTIAL, REJECTED, ImportedRide
+from backend.formats.outcome import COMPLETE, PARTIAL, REJECTED
 from backend.formats.questions import TableAnswer
 from backend.formats.tables import read_table
-
-
-def column(ride: ImportedRide, name: str) -> list[float]:
-    channel = next(channel for channel in ride.rows.channels if channel.name == name)
-    found: list[float] = channel.to_values(ride.rows.counts[name]).tolist()
-    return found
+from tests.fakes.kept_rides import column_of
 
 
 def test_our_own_export_comes_back() -> None:
@@ -31,11 +26,11 @@ def test_our_own_export_comes_back() -> None:
     (ride,) = read_file("ride.csv", text.encode()).rides
 
     assert ride.period_us == 10_000
-    assert column(ride, "speed_kmh") == pytest.approx([20.01, 20.02, 20.03])
-    torque = column(ride, "rider_torque_nm")
+    assert column_of(ride, "speed_kmh") == pytest.approx([20.01, 20.02, 20.03])
+    torque = column_of(ride, "rider_torque_nm")
     assert np.isnan(torque[1])
     assert torque[2] == pytest.approx(-1.25)
-    assert column(ride, "fuzzy_gain") == pytest.approx([0.20005, 0.2001, 0.20015])
+    assert column_of(ride, "fuzzy_gain") == pytest.approx([0.20005, 0.2001, 0.20015])
 
 
 @pytest.mark.parametrize("data", [b"", b"\n", b"\xef\xbb\xbf", b"\r\n\r\n", b";"])
@@ -59,8 +54,8 @@ def test_a_makers_no_value_number_is_missing() -> None:
     (ride,) = read_table(NOTHING_SAID.encode(), "", SAID).rides
 
     assert "heart_rate_bpm" not in [channel.name for channel in ride.rows.channels]
-    assert np.isnan(column(ride, "cadence_rpm")[1])
-    assert column(ride, "speed_kmh")[1] == pytest.approx(14.4, abs=0.01)
+    assert np.isnan(column_of(ride, "cadence_rpm")[1])
+    assert column_of(ride, "speed_kmh")[1] == pytest.approx(14.4, abs=0.01)
 
 
 def test_a_table_of_no_unit_and_no_zone_is_not_read_until_its_owner_says_them() -> None:
@@ -83,7 +78,7 @@ def test_what_is_said_decides_and_is_told_with_the_ride(unit: str, km_h: float) 
 
     (ride,) = read_table(NOTHING_SAID.encode(), "", said).rides
 
-    assert column(ride, "speed_kmh")[1] == pytest.approx(km_h, abs=1e-9)
+    assert column_of(ride, "speed_kmh")[1] == pytest.approx(km_h, abs=1e-9)
     assert ride.intake is not None
     assert ride.intake.taken_as == {"distance": "m", "speed": unit, "time_zone": "Europe/Dublin"}
     assert ride.intake.fields_unread == {"Weather": 3}
@@ -121,7 +116,7 @@ def test_a_table_that_says_unit_and_zone_asks_nothing(header: str) -> None:
     (ride,) = read_table(f"{header}\n{row}\n".encode()).rides
 
     assert ride.started_us == 1_772_348_400 * 1_000_000
-    assert column(ride, "speed_kmh") == pytest.approx([21.5])
+    assert column_of(ride, "speed_kmh") == pytest.approx([21.5])
 
 
 def test_tables_of_one_header_share_a_question_and_others_do_not() -> None:
@@ -149,7 +144,7 @@ def test_semicolons_decimal_commas_and_a_byte_order_mark_are_read() -> None:
     outcome = read_file("fahrt.csv", text.encode())
 
     assert outcome.state == COMPLETE
-    assert column(outcome.rides[0], "speed_kmh") == pytest.approx([20.5, 21.5])
+    assert column_of(outcome.rides[0], "speed_kmh") == pytest.approx([20.5, 21.5])
 
 
 @pytest.mark.parametrize(

@@ -17,6 +17,7 @@ from backend.formats.fit import read_fit
 from backend.formats.fit.read import read_damaged
 from backend.formats.outcome import COMPLETE, ImportedRide
 from tests.fakes.fit_file import FIT_EPOCH_S, START_S, commute, definition, enclosed, fit_file
+from tests.fakes.kept_rides import column_of
 from tools.compare_decoders.cells import compare
 
 NOW = START_S - FIT_EPOCH_S
@@ -151,18 +152,12 @@ def only_ride(file: bytes) -> ImportedRide:
     return ride
 
 
-def values(ride: ImportedRide, name: str) -> list[float]:
-    channel = next(channel for channel in ride.rows.channels if channel.name == name)
-    found: list[float] = channel.to_values(ride.rows.counts[name]).tolist()
-    return found
-
-
 def test_times_in_headers_go_on_from_the_last_told_one() -> None:
     ride = only_ride(compressed_times())
 
     assert ride.started_us == START_S * 1_000_000
     assert (np.diff(ride.rows.times_us) == 1_000_000).all()
-    assert values(ride, "rider_power_w") == pytest.approx([100.0 + s for s in range(41)])
+    assert column_of(ride, "rider_power_w") == pytest.approx([100.0 + s for s in range(41)])
 
 
 def test_a_field_of_no_bytes_is_no_value_and_moves_no_other() -> None:
@@ -170,19 +165,19 @@ def test_a_field_of_no_bytes_is_no_value_and_moves_no_other() -> None:
     ride = only_ride(a_field_of_no_bytes())
 
     assert (np.diff(ride.rows.times_us) == 1_000_000).all()
-    assert values(ride, "rider_power_w") == pytest.approx([100.0 + s for s in range(9)])
+    assert column_of(ride, "rider_power_w") == pytest.approx([100.0 + s for s in range(9)])
 
 
 def test_a_distance_that_goes_round_is_added_up() -> None:
     ride = only_ride(compressed_speed_and_distance())
 
-    assert values(ride, "distance_m")[-1] == pytest.approx(5.0 * 99)
-    assert np.isnan(values(ride, "speed_kmh")[7])
-    assert values(ride, "speed_kmh")[8] == pytest.approx(18.0)
+    assert column_of(ride, "distance_m")[-1] == pytest.approx(5.0 * 99)
+    assert np.isnan(column_of(ride, "speed_kmh")[7])
+    assert column_of(ride, "speed_kmh")[8] == pytest.approx(18.0)
 
 
 def test_a_speed_is_kept_to_the_millimetre_a_second() -> None:
-    assert values(only_ride(a_field_twice()), "speed_kmh") == pytest.approx(
+    assert column_of(only_ride(a_field_twice()), "speed_kmh") == pytest.approx(
         [8.056 * 3.6] * 9, abs=1e-9
     )
 
@@ -193,16 +188,16 @@ def test_fields_that_no_bike_has_are_channels_of_their_own_name_and_unit() -> No
 
     units = {channel.name: channel.unit for channel in ride.rows.channels}
     assert units["leg_spring"] == "kN/m"
-    assert values(ride, "leg_spring") == pytest.approx([11.25] * 9)
-    assert values(ride, "rider_torque_nm")[8] == pytest.approx(28.5)
-    assert values(ride, "rider_power_w") == pytest.approx([150.0] * 9)
-    assert values(ride, "developer_power") == pytest.approx([333.0] * 9)
+    assert column_of(ride, "leg_spring") == pytest.approx([11.25] * 9)
+    assert column_of(ride, "rider_torque_nm")[8] == pytest.approx(28.5)
+    assert column_of(ride, "rider_power_w") == pytest.approx([150.0] * 9)
+    assert column_of(ride, "developer_power") == pytest.approx([333.0] * 9)
 
 
 def test_what_is_no_single_number_is_listed() -> None:
     ride = only_ride(unknown_and_odd_fields())
 
-    assert values(ride, "unknown_222") == pytest.approx([7.0 * s for s in range(9)])
+    assert column_of(ride, "unknown_222") == pytest.approx([7.0 * s for s in range(9)])
     assert ride.intake is not None
     assert ride.intake.fields_unread == {"left_power_phase": 9, "unknown_230": 9, "unknown_231": 9}
 
@@ -233,7 +228,7 @@ def test_five_records_a_second_are_five_samples() -> None:
 
     assert len(ride.rows.times_us) == 50
     assert ride.period_us == 200_000
-    assert values(ride, "rider_power_w") == pytest.approx([100.0 + row for row in range(50)])
+    assert column_of(ride, "rider_power_w") == pytest.approx([100.0 + row for row in range(50)])
     assert ride.intake is not None
     assert ride.intake.rows_spread == 50
 
@@ -280,8 +275,8 @@ def test_one_flipped_bit_changes_neither_distance_nor_maxima(
 
     ride = only_ride(fit_file(records))
 
-    clean = np.array(values(only_ride(fit_file(commute(30))), channel))
-    found = np.array(values(ride, channel))
+    clean = np.array(column_of(only_ride(fit_file(commute(30))), channel))
+    found = np.array(column_of(ride, channel))
     assert np.isnan(found[at])
     assert np.delete(found, at) == pytest.approx(np.delete(clean, at))
     assert ride.intake is not None
@@ -297,7 +292,7 @@ def test_an_odometer_that_stood_through_a_pause_is_no_spike() -> None:
 
     ride = only_ride(fit_file(records))
 
-    assert not np.isnan(values(ride, "distance_m")).any()
+    assert not np.isnan(column_of(ride, "distance_m")).any()
 
 
 def test_nowhere_is_no_position() -> None:
@@ -305,7 +300,7 @@ def test_nowhere_is_no_position() -> None:
     for row in records[:5]:
         row["position_lat"] = row["position_long"] = 0.0
 
-    latitude = values(only_ride(fit_file(records)), "latitude_deg")
+    latitude = column_of(only_ride(fit_file(records)), "latitude_deg")
 
     assert np.isnan(latitude[:5]).all()
     assert not np.isnan(latitude[5:]).any()

@@ -18,6 +18,7 @@ from backend.formats.fit.read import read_damaged
 from backend.formats.formats import read_file
 from backend.formats.outcome import COMPLETE, PARTIAL, REJECTED, ImportedRide, Outcome
 from tests.fakes.fit_file import START_S, commute, definition, enclosed, fit_file
+from tests.fakes.kept_rides import column_of
 
 # Processes, compilers or hundreds of files: left out of `make test-fast`.
 pytestmark = pytest.mark.slow
@@ -38,12 +39,6 @@ CODES = {
     # Of the gzip file that two bytes begin.
     "container_damaged",
 }
-
-
-def values(ride: ImportedRide, name: str) -> list[float]:
-    channel = next(channel for channel in ride.rows.channels if channel.name == name)
-    found: list[float] = channel.to_values(ride.rows.counts[name]).tolist()
-    return found
 
 
 def only_ride(outcome: Outcome) -> ImportedRide:
@@ -71,12 +66,12 @@ def test_a_sound_file_is_read_in_our_units() -> None:
     assert (outcome.state, outcome.code, outcome.completeness) == (COMPLETE, None, 1.0)
     assert (ride.started_us, ride.period_us) == (START_S * 1_000_000, 1_000_000)
     assert ride.sport == "cycling"
-    assert values(ride, "speed_kmh") == pytest.approx([18.0] * ROWS)
-    assert values(ride, "rider_power_w") == pytest.approx([150.0] * ROWS)
-    assert values(ride, "motor_power_w") == pytest.approx([200.0] * ROWS)
-    assert values(ride, "altitude_m")[0] == pytest.approx(520.2)
-    assert values(ride, "latitude_deg")[9] == pytest.approx(48.0 + 9 * 4.5e-5, abs=1e-6)
-    assert values(ride, "distance_m")[-1] == pytest.approx(5.0 * (ROWS - 1))
+    assert column_of(ride, "speed_kmh") == pytest.approx([18.0] * ROWS)
+    assert column_of(ride, "rider_power_w") == pytest.approx([150.0] * ROWS)
+    assert column_of(ride, "motor_power_w") == pytest.approx([200.0] * ROWS)
+    assert column_of(ride, "altitude_m")[0] == pytest.approx(520.2)
+    assert column_of(ride, "latitude_deg")[9] == pytest.approx(48.0 + 9 * 4.5e-5, abs=1e-6)
+    assert column_of(ride, "distance_m")[-1] == pytest.approx(5.0 * (ROWS - 1))
 
 
 def test_the_walk_for_damaged_files_reads_a_sound_one_just_the_same() -> None:
@@ -100,7 +95,7 @@ def test_missing_is_missing_and_not_zero() -> None:
     records[5]["power"] = None
     records[6]["power"] = 0
 
-    power = values(only_ride(read_fit(fit_file(records))), "rider_power_w")
+    power = column_of(only_ride(read_fit(fit_file(records))), "rider_power_w")
 
     assert np.isnan(power[5])
     assert power[6] == 0.0
@@ -116,8 +111,8 @@ def test_parts_of_a_row_written_one_after_the_other_become_one_row() -> None:
     ride = only_ride(read_fit(fit_file(records)))
 
     assert len(ride.rows.times_us) == 30
-    assert values(ride, "speed_kmh") == pytest.approx([18.0] * 30)
-    assert values(ride, "rider_power_w") == pytest.approx([150.0] * 30)
+    assert column_of(ride, "speed_kmh") == pytest.approx([18.0] * 30)
+    assert column_of(ride, "rider_power_w") == pytest.approx([150.0] * 30)
 
 
 def test_a_clock_that_was_not_set_or_ran_backwards_is_put_right_and_told() -> None:
@@ -145,12 +140,14 @@ def test_files_in_a_row_are_a_ride_each() -> None:
 
 def test_a_cut_file_keeps_what_is_before_the_cut_and_says_where() -> None:
     record_bytes = (len(WHOLE) - len(fit_file(commute(ROWS - 100)))) // 100
-    cut = len(WHOLE) - 100 * record_bytes
+    # After the records: definition and message of the session, and the checksum.
+    tail_bytes = 12 + 6 + 2
+    cut = len(WHOLE) - tail_bytes - 100 * record_bytes + 4
 
     outcome = read_fit(WHOLE[:cut])
 
     assert (outcome.state, outcome.code) == (PARTIAL, "truncated")
-    assert ROWS - 101 <= len(only_ride(outcome).rows.times_us) <= ROWS - 99
+    assert len(only_ride(outcome).rows.times_us) == ROWS - 100
     assert outcome.offset is not None
     assert cut - record_bytes <= outcome.offset <= cut
     assert outcome.completeness == pytest.approx(cut / len(WHOLE), abs=0.01)

@@ -10,12 +10,12 @@ from __future__ import annotations
 import json
 from datetime import UTC, datetime
 
-import numpy as np
 import pytest
 
 from backend.formats.formats import SNIFFED_BYTES, read_file, refused_by_head
 from backend.formats.outcome import COMPLETE, PARTIAL, REJECTED, ImportedRide
 from backend.formats.questions import TableAnswer
+from tests.fakes.kept_rides import values_of
 from tests.fakes.mahle_file import AHEAD, EVERY_S, STARTED, mahle_file, mahle_ride
 
 RIDE = mahle_ride()
@@ -30,15 +30,10 @@ def only_ride(file: bytes, answer: TableAnswer | None = None) -> ImportedRide:
     return ride
 
 
-def values(ride: ImportedRide, name: str) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
-    channel = next(channel for channel in ride.rows.channels if channel.name == name)
-    return channel.to_values(ride.rows.counts[name])
-
-
 def rows_of(ride: ImportedRide) -> list[tuple[float, ...]]:
     """Every row as its moment and its values."""
     moments = (ride.started_us + ride.rows.times_us).tolist()
-    columns = [values(ride, channel.name).tolist() for channel in ride.rows.channels]
+    columns = [values_of(ride, channel.name).tolist() for channel in ride.rows.channels]
     return list(zip(moments, *columns, strict=True))
 
 
@@ -64,7 +59,7 @@ def test_every_value_is_what_json_reads() -> None:
         ("assist_mode", "al"),
         ("or", "or"),
     ):
-        assert values(ride, name) == pytest.approx([p[key] for p in points], abs=1e-9), name
+        assert values_of(ride, name) == pytest.approx([p[key] for p in points], abs=1e-9), name
     for name, key in (
         ("battery_soc_pct", "sc"),
         ("battery_voltage_v", "vl"),
@@ -74,7 +69,7 @@ def test_every_value_is_what_json_reads() -> None:
         ("bt_bc", "bc"),
     ):
         theirs = [p["bt"][0][key] for p in points]
-        assert values(ride, name) == pytest.approx(theirs, abs=1e-9), name
+        assert values_of(ride, name) == pytest.approx(theirs, abs=1e-9), name
 
 
 def test_what_proves_no_unit_has_none_and_what_is_text_is_listed() -> None:

@@ -14,6 +14,7 @@ import pytest
 from backend.formats.formats import read_file
 from backend.formats.outcome import COMPLETE, PARTIAL, REJECTED, ImportedRide
 from backend.formats.questions import TableAnswer
+from tests.fakes.kept_rides import column_of
 
 POWERTAP = "Minutes, Torq (N-m),Km/h,Watts,Km,Cadence,Hrate,ID\r\n" + "".join(
     f"{(row + 1) * 0.021:.3f},{8.1 + row * 0.1:.1f},25.2,{180 + row},{row * 0.0088:.4f},"
@@ -88,12 +89,6 @@ def ride_of(name: str) -> ImportedRide:
     return ride
 
 
-def values(ride: ImportedRide, name: str) -> list[float]:
-    channel = next(channel for channel in ride.rows.channels if channel.name == name)
-    found: list[float] = channel.to_values(ride.rows.counts[name]).tolist()
-    return found
-
-
 def taken_as(ride: ImportedRide) -> dict[str, str]:
     assert ride.intake is not None
     return dict(ride.intake.taken_as)
@@ -102,10 +97,10 @@ def taken_as(ride: ImportedRide) -> dict[str, str]:
 def test_a_powertap_s_torque_is_that_of_the_wheel_and_its_ride_has_no_date() -> None:
     ride = ride_of("powertap")
 
-    assert values(ride, "wheel_torque_nm")[1] == pytest.approx(8.2)
+    assert column_of(ride, "wheel_torque_nm")[1] == pytest.approx(8.2)
     assert "rider_torque_nm" not in {channel.name for channel in ride.rows.channels}
-    assert values(ride, "rider_power_w")[:2] == [180.0, 181.0]
-    assert values(ride, "distance_m")[10] == pytest.approx(88.0)
+    assert column_of(ride, "rider_power_w")[:2] == [180.0, 181.0]
+    assert column_of(ride, "distance_m")[10] == pytest.approx(88.0)
     assert ride.period_us == 1_260_000
     assert not ride.start_known
     assert taken_as(ride) == {"start": "none"}
@@ -115,7 +110,7 @@ def test_a_joule_s_file_is_latin_1_and_begins_at_its_own_clock() -> None:
     ride = ride_of("joule")
 
     assert ride.started_us == 1_354_020_041 * 1_000_000  # 13:40:41 in Berlin, an hour before UTC
-    assert values(ride, "temperature_degc")[0] == pytest.approx(16.7)
+    assert column_of(ride, "temperature_degc")[0] == pytest.approx(16.7)
     assert len(ride.rows.times_us) == 30
 
 
@@ -125,8 +120,8 @@ def test_an_ergomo_s_pause_is_time_and_its_commas_are_points() -> None:
     steps = np.diff(ride.rows.times_us)
     assert steps[9] == 65_000_000
     assert (np.delete(steps, 9) == 5_000_000).all()
-    assert values(ride, "speed_kmh")[0] == pytest.approx(25.2)
-    assert values(ride, "distance_m")[2] == pytest.approx(70.0)
+    assert column_of(ride, "speed_kmh")[0] == pytest.approx(25.2)
+    assert column_of(ride, "distance_m")[2] == pytest.approx(70.0)
 
 
 def test_a_golden_cheetah_file_has_its_date_in_its_name_and_minus_255_is_no_temperature() -> None:
@@ -135,16 +130,16 @@ def test_a_golden_cheetah_file_has_its_date_in_its_name_and_minus_255_is_no_temp
     assert ride.started_us == 1_354_020_041 * 1_000_000
     assert taken_as(ride) == {"time_zone": "Europe/Berlin", "start": "file_name"}
     assert "temperature_degc" not in {channel.name for channel in ride.rows.channels}
-    assert values(ride, "torque_nm")[0] == pytest.approx(21.23)
-    assert values(ride, "latitude_deg")[2] == pytest.approx(48.00002, abs=1e-9)
+    assert column_of(ride, "torque_nm")[0] == pytest.approx(21.23)
+    assert column_of(ride, "latitude_deg")[2] == pytest.approx(48.00002, abs=1e-9)
 
 
 def test_an_ibike_s_miles_and_feet_are_kilometres_and_metres() -> None:
     ride = ride_of("ibike")
 
     assert ride.period_us == 1_000_000
-    assert values(ride, "speed_kmh")[0] == pytest.approx(15 * 1.609344)
-    assert values(ride, "altitude_m")[0] == pytest.approx(30.48)
+    assert column_of(ride, "speed_kmh")[0] == pytest.approx(15 * 1.609344)
+    assert column_of(ride, "altitude_m")[0] == pytest.approx(30.48)
     assert "latitude_deg" not in {channel.name for channel in ride.rows.channels}
 
 
@@ -167,9 +162,9 @@ def test_a_cycle_analyst_tells_rider_and_battery_apart_and_is_asked_for_its_kilo
 
     ride = ride_of("analyst")
 
-    assert values(ride, "rider_torque_nm")[0] == pytest.approx(20.0)
-    assert values(ride, "rider_power_w")[0] == pytest.approx(20.0 * 60 * 2 * np.pi / 60, abs=0.1)
-    assert values(ride, "battery_current_a")[0] == pytest.approx(4.0)
+    assert column_of(ride, "rider_torque_nm")[0] == pytest.approx(20.0)
+    assert column_of(ride, "rider_power_w")[0] == pytest.approx(20.0 * 60 * 2 * np.pi / 60, abs=0.1)
+    assert column_of(ride, "battery_current_a")[0] == pytest.approx(4.0)
     assert "motor_power_w" not in {channel.name for channel in ride.rows.channels}
     assert not ride.start_known
 
@@ -187,9 +182,9 @@ def test_a_vesc_log_goes_over_midnight_and_has_no_position_without_a_receiver() 
 
     assert ride.period_us == 100_000
     assert ride.started_us == 1_728_601_199 * 1_000_000  # 23:59:59 in Dublin, UTC+1
-    assert values(ride, "speed_kmh")[0] == pytest.approx(19.8)
-    assert values(ride, "battery_soc_pct")[0] == pytest.approx(80.5)
-    assert values(ride, "motor_current_a")[0] == pytest.approx(12.25)
+    assert column_of(ride, "speed_kmh")[0] == pytest.approx(19.8)
+    assert column_of(ride, "battery_soc_pct")[0] == pytest.approx(80.5)
+    assert column_of(ride, "motor_current_a")[0] == pytest.approx(12.25)
     names = {channel.name for channel in ride.rows.channels}
     # Nobody knows whether a thermistor is fitted: it is no motor temperature.
     assert not names & {"latitude_deg", "altitude_m", "motor_temperature_degc"}

@@ -21,6 +21,7 @@ from backend.core.device_metadata import Instrument, Pause
 from backend.formats.formats import read_file
 from backend.formats.outcome import COMPLETE, PARTIAL, REJECTED, ImportedRide
 from backend.formats.questions import TableAnswer
+from tests.fakes.kept_rides import values_of
 from tests.fakes.track_files import (
     GPX_HEAD,
     START_S,
@@ -39,11 +40,6 @@ GPX = gpx_file(gpx_track((0, 30), (40, 60)))
 TCX = tcx_file(tcx_activity(tcx_lap(0, 30), tcx_lap(30, 60)))
 
 
-def values(ride: ImportedRide, name: str) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
-    channel = next(channel for channel in ride.rows.channels if channel.name == name)
-    return channel.to_values(ride.rows.counts[name])
-
-
 def only_ride(file: bytes, name: str = "ride") -> ImportedRide:
     outcome = read_file(name, file)
     assert outcome.state == COMPLETE, outcome.detail
@@ -58,9 +54,11 @@ def test_every_cell_of_a_gpx_file_is_what_gpxpy_reads() -> None:
     assert ride.started_us / 1e6 + ride.rows.times_us / 1e6 == pytest.approx(
         [point.time.timestamp() for point in points if point.time]
     )
-    assert values(ride, "latitude_deg") == pytest.approx([p.latitude for p in points], abs=1e-9)
-    assert values(ride, "longitude_deg") == pytest.approx([p.longitude for p in points], abs=1e-9)
-    assert values(ride, "altitude_m") == pytest.approx([p.elevation for p in points], abs=1e-9)
+    assert values_of(ride, "latitude_deg") == pytest.approx([p.latitude for p in points], abs=1e-9)
+    assert values_of(ride, "longitude_deg") == pytest.approx(
+        [p.longitude for p in points], abs=1e-9
+    )
+    assert values_of(ride, "altitude_m") == pytest.approx([p.elevation for p in points], abs=1e-9)
     told = [[*p.extensions[1], p.extensions[0]] for p in points]
     for place, (name, factor) in enumerate(
         [
@@ -72,7 +70,7 @@ def test_every_cell_of_a_gpx_file_is_what_gpxpy_reads() -> None:
         ]
     ):
         theirs = [factor * float(leaves[place].text or "nan") for leaves in told]
-        assert values(ride, name) == pytest.approx(theirs, abs=1e-9), name
+        assert values_of(ride, name) == pytest.approx(theirs, abs=1e-9), name
 
 
 def test_every_cell_of_a_tcx_file_is_what_tcxreader_reads(tmp_path: Path) -> None:
@@ -92,7 +90,7 @@ def test_every_cell_of_a_tcx_file_is_what_tcxreader_reads(tmp_path: Path) -> Non
         ("speed_kmh", [3.6 * point.tpx_ext["Speed"] for point in points]),
         ("rider_power_w", [point.tpx_ext["Watts"] for point in points]),
     ):
-        assert values(ride, name) == pytest.approx(theirs, abs=1e-9), name
+        assert values_of(ride, name) == pytest.approx(theirs, abs=1e-9), name
 
 
 def test_between_segments_a_track_pauses_and_its_file_names_its_maker() -> None:
@@ -180,8 +178,8 @@ def test_gpx_1_0_has_speed_in_the_point_itself() -> None:
 
     ride = only_ride(text.encode())
 
-    assert values(ride, "speed_kmh").tolist() == [18.0]
-    assert values(ride, "course").tolist() == [90.5]
+    assert values_of(ride, "speed_kmh").tolist() == [18.0]
+    assert values_of(ride, "course").tolist() == [90.5]
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,6 @@ Method: readers that the test holds and lets go; no times.
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -17,7 +16,7 @@ from backend.formats import Outcome, ReadingStopped
 from backend.formats.formats import read_file
 from backend.formats.outcome import rejected
 from backend.imports.service import WAITS, Uploads
-from backend.store import Store, Verdict, open_store
+from backend.store import Store, Verdict
 from tests.fakes.fit_file import START_S, commute, fit_file
 
 SOUND = fit_file(commute(100))
@@ -68,12 +67,6 @@ class HeldReader:
 def impatient(path: Path, name: str) -> Outcome:
     """The quick lane's reader: a file called `slow` needs more time than it has."""
     return TOO_SLOW if name.startswith("slow") else read_file("ride.fit", path.read_bytes())
-
-
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as opened:
-        yield opened
 
 
 def arrived(uploads: Uploads, name: str, content: bytes) -> str:

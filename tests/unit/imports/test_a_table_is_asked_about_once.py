@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import io
 import zipfile
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -34,12 +33,6 @@ def table(day: int) -> bytes:
 
 def reader(path: Path, name: str, *, table_answer: TableAnswer | None = None) -> Outcome:
     return read_file(name, path.read_bytes(), table_answer)
-
-
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as opened:
-        yield opened
 
 
 @pytest.fixture

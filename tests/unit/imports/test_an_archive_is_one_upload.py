@@ -13,30 +13,20 @@ from pathlib import Path
 import pytest
 
 from backend.errors import Conflict
-from backend.formats import Entry, Left, Outcome, ReadingStopped
+from backend.formats import Entry, Left, ReadingStopped
 from backend.formats.containers.archive import entries
-from backend.formats.formats import read_file
 from backend.imports.service import Uploads, UploadSettings
 from backend.rebuild import rebuild_store
 from backend.rides.service import Rides
 from backend.store import Store, open_store
 from backend.store.named import named_keys
 from tests.fakes.fit_file import START_S, commute, fit_file
+from tests.fakes.uploading import read_here
 from tests.fakes.zip_file import zipped
 
 DAY_S = 86_400
 FIRST, SECOND, THIRD = (fit_file(commute(120, START_S + day * DAY_S)) for day in range(3))
 PAGE = b"<html>502</html>"
-
-
-def read_here(path: Path, name: str) -> Outcome:
-    return read_file(name, path.read_bytes())
-
-
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as opened:
-        yield opened
 
 
 @pytest.fixture

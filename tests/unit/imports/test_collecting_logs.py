@@ -16,9 +16,7 @@ from pathlib import Path
 import pytest
 
 from backend.errors import Conflict, NotFound, SpindleError
-from backend.formats import Outcome
 from backend.formats.blocks import BLOCKS_SUFFIX
-from backend.formats.formats import read_file
 from backend.imports.service import Uploads
 from backend.imports.unit_logs import Collect, Download
 from backend.store import Store, open_store
@@ -26,7 +24,9 @@ from backend.units.inspection import Inspection
 from backend.units.service import Devices
 from sim_device.lockstep import LockstepUnit
 from tests.fakes.server import eventually
+from tests.fakes.simulated_unit import LockstepAsUnit
 from tests.fakes.unit_link import UnitOpener
+from tests.fakes.uploading import read_here
 
 URL = "socket://unit:1"
 RIDE_S = 120.0
@@ -44,30 +44,24 @@ def memory_of_a_ride() -> tuple[bytes, bytes]:
     return unit.unit.flash(), unit.unit.log()
 
 
-class Cable:
+class Cable(LockstepAsUnit):
     """The unit behind a cable that breaks once, after so many bytes to the host."""
 
     def __init__(self, unit: LockstepUnit) -> None:
-        self.unit = unit
+        super().__init__(unit)
         self.carried = 0
         self.breaks_after: int | None = None
         self.broke = threading.Event()
         self.opener: UnitOpener
 
-    def receive(self, data: bytes) -> object:
-        return self.unit.send(data)
-
     def transmit(self) -> bytes:
-        data = self.unit.receive()
+        data = super().transmit()
         self.carried += len(data)
         if self.breaks_after is not None and self.carried > self.breaks_after:
             self.breaks_after = None
             self.opener.unplug()
             self.broke.set()
         return data
-
-    def advance(self, seconds: float) -> None:
-        self.unit.advance(seconds)
 
 
 @dataclass
@@ -96,10 +90,6 @@ class Shop:
             lambda: self.collect.get(self.device, log_id),
             lambda download: download.state in ("done", "failed"),
         )
-
-
-def read_here(path: Path, name: str) -> Outcome:
-    return read_file(name, path.read_bytes())
 
 
 @pytest.fixture
@@ -141,6 +131,10 @@ def original(shop: Shop, download: Download) -> bytes:
     key = shop.store.uploads.get(download.upload_id).object_key
     assert key is not None
     return shop.store.objects.local_path(key).read_bytes()
+
+
+def full_disk(*_: object, **__: object) -> None:
+    raise OSError(28, "No space left on device")
 
 
 @pytest.mark.slow
@@ -209,9 +203,6 @@ def test_what_is_no_beginning_of_the_log_is_thrown_away(shop: Shop, found: bytes
 def test_the_unit_is_not_told_before_the_ride_is_stored(
     shop: Shop, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def full_disk(*_: object, **__: object) -> None:
-        raise OSError(28, "No space left on device")
-
     with monkeypatch.context() as patched:
         patched.setattr(shop.store.objects, "publish", full_disk)
         failed = shop.fetch()
@@ -307,9 +298,6 @@ def test_what_was_fetched_of_a_log_that_is_gone_becomes_a_ride(shop: Shop, suffi
 def test_a_beginning_the_store_refuses_stays_on_the_disk(
     shop: Shop, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def full_disk(*_: object, **__: object) -> None:
-        raise OSError(28, "No space left on device")
-
     gone = part_of(shop).with_name(f"{shop.serial_number}-00000001-9-0badcafe.part")
     gone.write_bytes(flash_bytes(shop))
     with monkeypatch.context() as patched:

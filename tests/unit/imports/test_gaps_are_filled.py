@@ -26,6 +26,7 @@ from backend.rides.recording.recorder import Recorder, RecordSettings
 from backend.store import Store, open_store, rides
 from backend.store.named import named_keys
 from backend.store.objects import Disk
+from tests.fakes.failing_disk import FailingDisk
 
 # A store for every test, or rides of minutes: left out of `make test-fast`.
 pytestmark = pytest.mark.slow
@@ -325,30 +326,6 @@ def test_faults_and_modes_of_the_gap_are_told_at_their_time(bench: Bench) -> Non
     assert [event.t_s for event in events] == pytest.approx([12.03, 13.03, 13.05, 18.03])
 
 
-class FailingDisk(Disk):
-    """Fails at its Nth step, once it is told to count."""
-
-    def __init__(self) -> None:
-        self.left = -1
-
-    def step(self) -> None:
-        self.left -= 1
-        if self.left == 0:
-            raise OSError(28, "No space left on device")
-
-    def flush_file(self, path: Path) -> None:
-        self.step()
-        super().flush_file(path)
-
-    def rename(self, source: Path, target: Path) -> None:
-        self.step()
-        super().rename(source, target)
-
-    def flush_folder(self, path: Path) -> None:
-        self.step()
-        super().flush_folder(path)
-
-
 @pytest.mark.parametrize("step", [4, 5, 6, 7, 8, 9, 10, None])
 def test_a_crash_anywhere_leaves_the_old_ride_or_the_new_and_the_next_start_the_new(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, step: int | None
@@ -358,7 +335,7 @@ def test_a_crash_anywhere_leaves_the_old_ride_or_the_new_and_the_next_start_the_
     bench = Bench(tmp_path, disk)
     (old,) = bench.record(truth, (300, 600))
     old_rows = bench.rows(old)
-    disk.left = -1 if step is None else step
+    disk.left = step or 0
 
     def torn(*_: object) -> None:
         raise StoreError("The power is gone.")

@@ -16,13 +16,12 @@ import pytest
 
 from backend.core.channels import ChannelSpec
 from backend.core.ride import RideContext
-from backend.formats import Outcome
-from backend.formats.formats import read_file
 from backend.imports.service import Uploads
 from backend.rebuild import rebuild_store
 from backend.rides.service import Rides
 from backend.store import Store, Upload, open_store
 from tests.fakes.fit_file import START_S, commute, fit_file
+from tests.fakes.uploading import read_here
 
 DAY_S = 86_400
 LENGTH_S = 600
@@ -57,10 +56,6 @@ def ridden(start_s: int = START_S, seed: int = 1, offset_m: float = 0.0) -> Rows
 
 def without(rows: Sequence[dict[str, float | None]], *names: str) -> bytes:
     return fit_file([{k: v for k, v in row.items() if k not in names} for row in rows])
-
-
-def read_here(path: Path, name: str) -> Outcome:
-    return read_file(name, path.read_bytes())
 
 
 RIDDEN = ridden()

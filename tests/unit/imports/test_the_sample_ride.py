@@ -7,24 +7,17 @@ metres.
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from backend.imports.sample import NAME, NOTES, sample_ride
 from backend.imports.service import Uploads
-from backend.store import Store, open_store
+from backend.store import Store
 
 pytestmark = pytest.mark.slow
 
 SCENARIO = Path(__file__).resolve().parents[3] / "sim_device/scenarios/commute.toml"
-
-
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as opened:
-        yield opened
 
 
 def test_it_is_one_whole_ride_that_says_what_it_is(store: Store) -> None:

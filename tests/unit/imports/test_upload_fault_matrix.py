@@ -8,7 +8,6 @@ server that dies is a store that is left as it is and opened anew.
 
 from __future__ import annotations
 
-import base64
 import errno
 import hashlib
 from collections.abc import Callable, Iterator
@@ -17,30 +16,19 @@ from typing import Any
 from unittest.mock import patch
 
 import pytest
-from fastapi.testclient import TestClient
 
-from backend.app import build_api
-from backend.formats import Outcome
-from backend.formats.formats import read_file
 from backend.imports.service import Uploads
 from backend.store import open_store
-from backend.web.app import WebSettings
 from tests.fakes.fit_file import commute, fit_file
+from tests.fakes.uploading import TUS, UploadDesk, checksum, described, read_here
 
 pytestmark = pytest.mark.slow
 
 RIDE = fit_file(commute(1200))
 HALF = len(RIDE) // 2
-TUS = {"tus-resumable": "1.0.0"}
-CHUNK = {**TUS, "content-type": "application/offset+octet-stream"}
 
 
-class Desk:
-    def __init__(self, uploads: Uploads) -> None:
-        self.uploads = uploads
-
-
-class Bench:
+class Bench(UploadDesk):
     """The application over a folder; `die` and `start` are a crash and the next start."""
 
     def __init__(self, folder: Path) -> None:
@@ -50,37 +38,21 @@ class Bench:
     def start(self) -> None:
         folder = self.folder
         self.store = open_store(f"sqlite:///{folder}/db", f"file://{folder}/objects")
-        self.uploads = Uploads(self.store, reader=read_here)
-        services: Any = Desk(self.uploads)
-        app = build_api(WebSettings("0"), services)
-        self.client = TestClient(app, base_url="http://localhost", raise_server_exceptions=False)
+        super().__init__(Uploads(self.store, reader=read_here))
 
     def die(self) -> None:
         self.uploads.close()
         self.store.close()
 
-    def begin(self, length: int = len(RIDE), **described: str) -> str:
-        told = {"filename": "ride.fit", **described}
-        pairs = [f"{k} {base64.b64encode(v.encode()).decode()}" for k, v in told.items()]
-        headers = {**TUS, "upload-length": str(length), "upload-metadata": ",".join(pairs)}
-        made = self.client.post("/api/v1/uploads", headers=headers)
-        assert made.status_code == 201
-        return str(made.headers["location"])
-
-    def send(self, address: str, offset: int, data: bytes, **more: str) -> int:
-        headers = {**CHUNK, "upload-offset": str(offset), **more}
-        return int(self.client.patch(address, headers=headers, content=data).status_code)
-
-    def stands(self, address: str) -> int:
-        return int(self.client.head(address).headers["upload-offset"])
+    def begin(self, length: int = len(RIDE), **told: str) -> str:
+        return super().begin(length, **({"filename": "ride.fit"} | told))
 
     def finish(self, address: str) -> dict[str, Any]:
         """What every tus client does after a break."""
         offset = self.stands(address)
         if offset < len(RIDE):
             assert self.send(address, offset, RIDE[offset:]) == 204
-        verdict: dict[str, Any] = self.client.get(address).json()
-        return verdict
+        return self.verdict(address)
 
     def spooled(self, address: str) -> Path:
         return self.store.objects.root / ".spool" / address.rsplit("/", 1)[-1]
@@ -88,10 +60,6 @@ class Bench:
     def kept(self) -> list[bytes]:
         originals = (self.store.objects.root / "originals").rglob("*")
         return [path.read_bytes() for path in originals if path.is_file()]
-
-
-def read_here(path: Path, name: str) -> Outcome:
-    return read_file(name, path.read_bytes())
 
 
 @pytest.fixture
@@ -136,10 +104,9 @@ def a_part_beyond_the_end(bench: Bench, address: str) -> None:
 
 
 def a_wrong_checksum(bench: Bench, address: str) -> None:
-    digest = base64.b64encode(hashlib.sha256(b"other").digest()).decode()
-    told = {"upload-checksum": f"sha256 {digest}"}
-    assert bench.send(address, 0, RIDE[:HALF], **told) == 460
+    assert bench.send(address, 0, RIDE[:HALF], **checksum(b"other")) == 460
     assert bench.stands(address) == 0
+    assert bench.send(address, 0, RIDE[:HALF], **checksum(RIDE[:HALF])) == 204
 
 
 def a_part_of_another_type(bench: Bench, address: str) -> None:
@@ -224,14 +191,13 @@ def test_a_declared_hash_that_is_another_s_is_told_and_makes_no_ride(bench: Benc
 
     bench.send(address, 0, RIDE)
 
-    verdict = bench.client.get(address).json()
+    verdict = bench.verdict(address)
     assert (verdict["state"], verdict["code"]) == ("rejected", "hash_mismatch")
     assert bench.store.rides.list().items == ()
 
 
 def test_a_declared_hash_that_is_none_begins_nothing(bench: Bench) -> None:
-    told = f"sha256 {base64.b64encode(b'abc').decode()}"
-    headers = {**TUS, "upload-length": "1", "upload-metadata": told}
+    headers = TUS | {"upload-length": "1"} | described(sha256="abc")
 
     assert bench.client.post("/api/v1/uploads", headers=headers).status_code == 400
 
@@ -241,7 +207,7 @@ def test_the_same_bytes_under_eighteen_names_are_one_ride_and_one_file(bench: Be
     for number in range(18):
         address = bench.begin(filename=f"ride ({number}).FIT")
         bench.send(address, 0, RIDE)
-        codes.append(bench.client.get(address).json()["code"])
+        codes.append(bench.verdict(address)["code"])
 
     assert codes == [None] + ["duplicate"] * 17
     assert bench.kept() == [RIDE]
@@ -254,7 +220,7 @@ def test_two_clients_that_send_one_file_side_by_side_make_one_ride(bench: Bench)
         for address in (one, other):
             assert bench.send(address, start, RIDE[start : start + 5000]) == 204
 
-    codes = [bench.client.get(address).json()["code"] for address in (one, other)]
+    codes = [bench.verdict(address)["code"] for address in (one, other)]
     assert codes == [None, "duplicate"]
     assert bench.kept() == [RIDE]
 
@@ -265,7 +231,7 @@ def test_a_size_that_lies_ends_with_the_size_and_is_told(bench: Bench) -> None:
     assert bench.send(address, 0, RIDE) == 413
     assert bench.send(address, 0, RIDE[:HALF]) == 204
 
-    verdict = bench.client.get(address).json()
+    verdict = bench.verdict(address)
     assert (verdict["state"], verdict["code"]) == ("partial", "truncated")
     assert bench.kept() == [RIDE[:HALF]]
 
@@ -290,15 +256,19 @@ def test_what_expired_is_gone_and_says_so(bench: Bench) -> None:
         ("photo.fit", b"\xff\xd8\xff\xe0" + bytes(200), "unsupported_format"),
         ("tool.fit", b"\x7fELF" + bytes(200), "unsupported_format"),
         ("noise", bytes(range(256)), "unknown_format"),
+        ("words.fit", b"not a ride at all", "unknown_format"),
+        ("zeros.fit", bytes(5000), "unknown_format"),
     ],
 )
-def test_what_is_no_ride_has_its_reason_and_no_ride(
+def test_what_is_no_ride_has_its_reason_and_no_ride_and_its_bytes_are_kept(
     bench: Bench, name: str, data: bytes, code: str
 ) -> None:
     address = bench.begin(length=len(data), filename=name)
     if data:
         bench.send(address, 0, data)
 
-    verdict = bench.client.get(address).json()
+    verdict = bench.verdict(address)
 
     assert (verdict["state"], verdict["code"], verdict["ride_ids"]) == ("rejected", code, [])
+    assert verdict["detail"]
+    assert bench.kept() == [data]

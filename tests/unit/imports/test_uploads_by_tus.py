@@ -7,62 +7,31 @@ a client may send any. Statuses: tus 1.0.0, core protocol, checksum and expirati
 from __future__ import annotations
 
 import base64
-import hashlib
 from collections.abc import Iterator
 from email.utils import parsedate_to_datetime
-from pathlib import Path
 from typing import Any
 
 import pytest
-from fastapi.testclient import TestClient
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from backend.app import build_api
 from backend.formats.outcome import rejected
 from backend.imports.service import Uploads
-from backend.store import open_store
-from backend.web.app import WebSettings
+from backend.store import Store
 from tests import counts
+from tests.fakes.uploading import CHUNK, TUS, UploadDesk, checksum
 
 # A store for every test, or a crowd of requests: left out of `make test-fast`.
 pytestmark = pytest.mark.slow
 
-CHUNK = {"tus-resumable": "1.0.0", "content-type": "application/offset+octet-stream"}
 LENGTH = 10
 
 
-class Desk:
-    """The part of the services that uploads need."""
-
-    def __init__(self, uploads: Uploads) -> None:
-        self.uploads = uploads
-
-
-class Bench:
-    def __init__(self, client: TestClient, uploads: Uploads) -> None:
-        self.client = client
-        self.uploads = uploads
-
-    def begin(self, length: int = LENGTH) -> str:
-        created = self.client.post(
-            "/api/v1/uploads", headers={"tus-resumable": "1.0.0", "upload-length": str(length)}
-        )
-        assert created.status_code == 201
-        return str(created.headers["location"])
-
-    def received(self, address: str) -> int:
-        return int(self.client.head(address).headers["upload-offset"])
-
-
 @pytest.fixture
-def bench(tmp_path: Path) -> Iterator[Bench]:
-    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as store:
-        uploads = Uploads(store, reader=lambda path, name: rejected("unknown_format", "No ride."))
-        services: Any = Desk(uploads)
-        app = build_api(WebSettings("0"), services)
-        client = TestClient(app, base_url="http://localhost", raise_server_exceptions=False)
-        yield Bench(client, uploads)
+def bench(store: Store) -> UploadDesk:
+    return UploadDesk(
+        Uploads(store, reader=lambda path, name: rejected("unknown_format", "No ride."))
+    )
 
 
 @pytest.mark.parametrize(
@@ -77,15 +46,17 @@ def bench(tmp_path: Path) -> Iterator[Bench]:
         b"\xff\xfe",
     ],
 )
-def test_a_checksum_that_is_none_is_a_400_and_keeps_nothing(bench: Bench, value: bytes) -> None:
-    address = bench.begin()
+def test_a_checksum_that_is_none_is_a_400_and_keeps_nothing(
+    bench: UploadDesk, value: bytes
+) -> None:
+    address = bench.begin(LENGTH)
     headers: dict[str, Any] = {**CHUNK, "upload-offset": "0", "upload-checksum": value}
 
     answer = bench.client.patch(address, headers=headers, content=b"12345")
 
     assert answer.status_code == 400
     assert "Upload-Checksum" in answer.json()["detail"]
-    assert bench.received(address) == 0
+    assert bench.stands(address) == 0
 
 
 ODD_VALUES = [b"9" * 5000, b"-1", b"1.5", b"sha1 =", b"0x10", b"\xb2", b"filename \xc3\xa9"]
@@ -115,13 +86,13 @@ ANY_VALUE = st.binary(max_size=40).filter(lambda v: not set(v) & {0, 10, 13}) | 
     value=ANY_VALUE,
 )
 def test_no_value_of_a_tus_header_makes_the_server_fail(
-    bench: Bench, header: str, value: bytes
+    bench: UploadDesk, header: str, value: bytes
 ) -> None:
     known: dict[str, Any] = {**CHUNK, "upload-length": str(LENGTH), "upload-offset": "0"}
 
     created = bench.client.post("/api/v1/uploads", headers={**known, header: value}, content=b"ab")
     appended = bench.client.patch(
-        bench.begin(), headers={**known, header: value}, content=b"abcdefghij"
+        bench.begin(LENGTH), headers={**known, header: value}, content=b"abcdefghij"
     )
 
     assert created.status_code in (201, 400, 409, 412, 413, 415, 422)
@@ -136,27 +107,26 @@ def in_pieces(*pieces: bytes) -> Iterator[bytes]:
 @pytest.mark.parametrize("declared", [True, False])
 @pytest.mark.parametrize("checked", [True, False])
 def test_a_part_longer_than_its_upload_stores_nothing(
-    bench: Bench, declared: bool, checked: bool
+    bench: UploadDesk, declared: bool, checked: bool
 ) -> None:
-    address = bench.begin()
+    address = bench.begin(LENGTH)
     bench.client.patch(address, headers={**CHUNK, "upload-offset": "0"}, content=b"1234")
     body = b"567890 and more"
     headers = {**CHUNK, "upload-offset": "4"}
     if checked:
-        digest = base64.b64encode(hashlib.sha256(body).digest()).decode()
-        headers["upload-checksum"] = f"sha256 {digest}"
+        headers |= checksum(body)
 
     answer = bench.client.patch(
         address, headers=headers, content=body if declared else in_pieces(body[:6], body[6:])
     )
 
     assert (answer.status_code, answer.json()["code"]) == (413, "too_long")
-    assert bench.received(address) == 4
+    assert bench.stands(address) == 4
     rest = bench.client.patch(address, headers={**CHUNK, "upload-offset": "4"}, content=b"567890")
     assert (rest.status_code, rest.headers["upload-offset"]) == (204, "10")
 
 
-def test_a_first_part_longer_than_its_upload_begins_none(bench: Bench) -> None:
+def test_a_first_part_longer_than_its_upload_begins_none(bench: UploadDesk) -> None:
     for body in (b"0123456789a", in_pieces(b"0123456789", b"a")):
         answer = bench.client.post(
             "/api/v1/uploads", headers={**CHUNK, "upload-length": "10"}, content=body
@@ -166,9 +136,8 @@ def test_a_first_part_longer_than_its_upload_begins_none(bench: Bench) -> None:
     assert bench.uploads.list()["items"] == ()
 
 
-def test_the_checksum_of_a_first_part_is_compared_too(bench: Bench) -> None:
-    digest = base64.b64encode(hashlib.sha256(b"1234").digest()).decode()
-    headers = CHUNK | {"upload-length": str(LENGTH), "upload-checksum": f"sha256 {digest}"}
+def test_the_checksum_of_a_first_part_is_compared_too(bench: UploadDesk) -> None:
+    headers = CHUNK | {"upload-length": str(LENGTH)} | checksum(b"1234")
 
     damaged = bench.client.post("/api/v1/uploads", headers=headers, content=b"1834")
     none = bench.client.get("/api/v1/uploads").json()["items"]
@@ -178,7 +147,7 @@ def test_the_checksum_of_a_first_part_is_compared_too(bench: Bench) -> None:
     assert (sound.status_code, sound.headers["upload-offset"]) == (201, "4")
 
 
-def test_an_unfinished_upload_says_until_when_it_is_waited_for(bench: Bench) -> None:
+def test_an_unfinished_upload_says_until_when_it_is_waited_for(bench: UploadDesk) -> None:
     created = bench.client.post(
         "/api/v1/uploads", headers={"tus-resumable": "1.0.0", "upload-length": "10"}
     )
@@ -195,16 +164,31 @@ def test_an_unfinished_upload_says_until_when_it_is_waited_for(bench: Bench) -> 
     assert {int(parsedate_to_datetime(text).timestamp()) for text in told} == {seven_days_s}
     assert all(text.endswith(" GMT") for text in told)
     assert "upload-expires" not in ended.headers
+    assert stands.headers["upload-length"] == "10"
+
+
+def test_an_upload_given_up_is_gone(bench: UploadDesk) -> None:
+    address = bench.begin(LENGTH)
+
+    assert bench.client.delete(address, headers=TUS).status_code == 204
+    assert bench.client.head(address, headers=TUS).status_code == 404
+
+
+def test_another_version_of_tus_is_told_which_one_we_speak(bench: UploadDesk) -> None:
+    headers = {"tus-resumable": "0.2.2", "upload-length": "10"}
+
+    response = bench.client.post("/api/v1/uploads", headers=headers)
+
+    assert response.status_code == 412
+    assert response.headers["tus-version"] == "1.0.0"
 
 
 PAGE = b"<!DOCTYPE html><html><body>502 Bad Gateway</body></html>".ljust(5000)
-LARGE = {"tus-resumable": "1.0.0", "upload-length": "200000000"}
+LARGE = TUS | {"upload-length": "200000000"}
 
 
-def test_what_is_no_ride_is_refused_with_its_first_part(bench: Bench) -> None:
-    name = base64.b64encode(b"ride.fit").decode()
-    described = LARGE | {"upload-metadata": f"filename {name}"}
-    address = bench.client.post("/api/v1/uploads", headers=described).headers["location"]
+def test_what_is_no_ride_is_refused_with_its_first_part(bench: UploadDesk) -> None:
+    address = bench.begin(200_000_000, filename="ride.fit")
 
     answers = [
         bench.client.patch(address, headers={**CHUNK, "upload-offset": offset}, content=part)
@@ -213,15 +197,19 @@ def test_what_is_no_ride_is_refused_with_its_first_part(bench: Bench) -> None:
 
     assert [answer.status_code for answer in answers] == [204, 422, 422]
     assert {answer.json()["code"] for answer in answers[1:]} == {"unsupported_format"}
-    upload = bench.client.get(address).json()
+    upload = bench.verdict(address)
     told = (upload["state"], upload["code"], upload["received"])
     assert told == ("rejected", "unsupported_format", 5000)
     assert "HTML" in upload["detail"]
+    assert upload["expires_at"]
+    assert upload in bench.client.get("/api/v1/uploads").json()["items"]
     assert bench.client.delete(address).status_code == 204
+    assert bench.client.get(address).status_code == 404
+    assert bench.client.delete(address).status_code == 404
 
 
-def test_a_first_part_of_no_ride_begins_an_upload_that_says_why(bench: Bench) -> None:
+def test_a_first_part_of_no_ride_begins_an_upload_that_says_why(bench: UploadDesk) -> None:
     created = bench.client.post("/api/v1/uploads", headers={**CHUNK, **LARGE}, content=PAGE)
 
     assert (created.status_code, created.headers["upload-offset"]) == (201, "5000")
-    assert bench.client.get(created.headers["location"]).json()["state"] == "rejected"
+    assert bench.verdict(created.headers["location"])["state"] == "rejected"

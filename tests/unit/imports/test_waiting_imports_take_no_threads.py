@@ -9,18 +9,16 @@ from __future__ import annotations
 import asyncio
 import threading
 from pathlib import Path
-from typing import Any
 
 import httpx
 import pytest
 from anyio.from_thread import start_blocking_portal
 
-from backend.app import build_api
 from backend.formats import Outcome
 from backend.formats.outcome import rejected
 from backend.imports.service import Arrival, Uploads
-from backend.store import open_store
-from backend.web.app import WebSettings
+from backend.store import Store
+from tests.fakes.api import api_with
 
 # A store for every test, or a crowd of requests: left out of `make test-fast`.
 pytestmark = pytest.mark.slow
@@ -39,14 +37,7 @@ class CountedUploads(Uploads):
         return arrival
 
 
-class Desk:
-    """The part of the services that uploads need."""
-
-    def __init__(self, uploads: Uploads) -> None:
-        self.uploads = uploads
-
-
-def test_while_many_imports_wait_another_route_is_answered(tmp_path: Path) -> None:
+def test_while_many_imports_wait_another_route_is_answered(store: Store) -> None:
     let_go = threading.Event()
 
     def held(path: Path, name: str) -> Outcome:
@@ -54,8 +45,7 @@ def test_while_many_imports_wait_another_route_is_answered(tmp_path: Path) -> No
         return rejected("unknown_format", "No ride.")
 
     async def story(uploads: CountedUploads) -> tuple[list[str], list[str]]:
-        services: Any = Desk(uploads)
-        transport = httpx.ASGITransport(app=build_api(WebSettings("0"), services))
+        transport = httpx.ASGITransport(app=api_with(uploads=uploads))
         async with httpx.AsyncClient(transport=transport, base_url="http://localhost") as client:
             sending = [
                 asyncio.create_task(
@@ -73,10 +63,7 @@ def test_while_many_imports_wait_another_route_is_answered(tmp_path: Path) -> No
             answers = [(await sent).json() for sent in sending]
         return [each["state"] for each in listed], [each["state"] for each in answers]
 
-    with (
-        open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as store,
-        start_blocking_portal() as portal,
-    ):
+    with start_blocking_portal() as portal:
         meanwhile, afterwards = portal.call(story, CountedUploads(store, reader=held))
 
     assert meanwhile == ["queued"] * IMPORTS

@@ -28,7 +28,7 @@ from backend.store import open_store
 from backend.web.app import WebSettings
 from backend.web.permissions import Anyone
 from backend.web.safety import AllowedHosts
-from tests.fakes.description import description
+from tests.fakes.api import description
 
 # Not described, because no program asks for them by its description.
 BESIDE = {"get_not_built", "get_docs", "get_description", "live"}

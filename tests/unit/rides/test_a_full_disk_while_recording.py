@@ -7,7 +7,6 @@ engine's own word. Rows in are counted here and compared with what the recorder 
 from __future__ import annotations
 
 import logging
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -53,12 +52,6 @@ class FullDisk:
     def _limit(self, connection: Connection) -> None:
         # A number below the present size means the present size.
         connection.exec_driver_sql(f"PRAGMA max_page_count={self._pages}")
-
-
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as opened:
-        yield opened
 
 
 @pytest.fixture

@@ -9,9 +9,7 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
-from collections.abc import Iterator
 from dataclasses import asdict
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -20,16 +18,10 @@ from backend.rides.insight.crank import CrankTorque, crank_torque
 from backend.rides.questions import Insight
 from backend.rides.report.page import crank
 from backend.rides.report.words import EN, ZH
-from backend.store import Store, open_store
+from backend.store import Store
 from tests.unit.rides.test_why_a_moment_was_as_it_was import ROWS, config_of, kept
 
 PUSH = np.full(ROWS, 20.0)
-
-
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as opened:
-        yield opened
 
 
 def report_of(store: Store, ride_id: int, language: str = "en") -> str:

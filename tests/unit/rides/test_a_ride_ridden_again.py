@@ -7,34 +7,29 @@ near the estimate is to the truth: tests/acceptance/test_the_same_road_again.py.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
 from backend.core.assist_mode import AssistModes
-from backend.core.channels import ChannelSpec, Values
-from backend.core.ride import Ride, RideRows
+from backend.core.channels import Values
 from backend.errors import InvalidRequest, RequestRefused
-from backend.formats import ImportedRide, Outcome
-from backend.imports.service import Uploads
 from backend.law import law_defaults
 from backend.law.rider_and_bike import RiderAndBike
 from backend.rides.replay import ride_again
 from backend.rides.replay.ride_again import RideAgain
 from backend.rides.replay.service import RideReplay
-from backend.store import Store, open_store
+from backend.store import Store
 from backend.tuning.preview import Preview
-from firmware_protocol._generated import CHANNELS, InputFlags
+from firmware_protocol._generated import InputFlags
+from tests.fakes.kept_rides import config_of, imported_ride
 from tests.fakes.known_roads import Outside, Ridden, road
 
 pytestmark = pytest.mark.slow
 
 PERIOD_US = 10_000
-SPECS = {row.name: ChannelSpec(row.name, row.unit, float(row.scale)) for row in CHANNELS}
 SPORT = 3
 FIGURES = (
     "wh_per_km",
@@ -62,35 +57,14 @@ def as_recorded(ridden: Ridden) -> dict[str, Values]:
     return columns
 
 
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as opened:
-        yield opened
-
-
 def kept(store: Store, columns: dict[str, Values]) -> int:
     """The id of a ride of these channels, (n,) each."""
-    specs = tuple(SPECS[name] for name in columns)
-    counts = {spec.name: spec.to_counts(columns[spec.name]) for spec in specs}
-    times_us = np.arange(len(columns["speed_kmh"]), dtype=np.int64) * PERIOD_US
-    outcome = Outcome(
-        "complete",
-        (ImportedRide(1_700_000_000_000_000, PERIOD_US, RideRows(specs, times_us, counts)),),
-    )
-    uploads = Uploads(store, reader=lambda path, name: outcome)
-    as_it_came = b"".join(column.tobytes() for column in counts.values())
-    (ride_id,) = uploads.receive_file("a.csv", as_it_came).ride_ids
-    uploads.close()
-    return ride_id
+    return imported_ride(store, columns, PERIOD_US)
 
 
 def again(store: Store, columns: dict[str, Values], **question: Any) -> dict[str, Any]:
     """The estimate for a ride of these channels, (n,) each."""
     return RideAgain(store, config_of)(kept(store, columns), **question)
-
-
-def config_of(ride: Ride, t_s: float = 0.0) -> tuple[dict[str, Any], str]:
-    return law_defaults(), "defaults"
 
 
 def distance_km(columns: dict[str, Values]) -> float:

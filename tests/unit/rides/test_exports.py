@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import io
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from datetime import UTC, datetime
 from itertools import chain
 from pathlib import Path
@@ -30,7 +30,7 @@ from backend.core.ride import Ride, RideContext, RideRows
 from backend.errors import InvalidRequest
 from backend.formats.formats import read_file
 from backend.rides.service import Rides
-from backend.store import Store, open_store
+from backend.store import Store
 
 Reader = Callable[[Path], dict[str, list[float | None]]]
 Messages = list[tuple[str, dict[str, Any]]]
@@ -75,13 +75,6 @@ def ridden() -> dict[str, Counts]:
     for values in physical.values():
         values[GAP] = np.nan
     return {channel.name: channel.to_counts(physical[channel.name]) for channel in CHANNELS}
-
-
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    urls = (f"sqlite:///{tmp_path}/spindle.db", (tmp_path / "objects").as_uri())
-    with open_store(*urls) as opened:
-        yield opened
 
 
 @pytest.fixture

@@ -10,14 +10,11 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
-from types import SimpleNamespace
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 import pytest
-from fastapi.testclient import TestClient
 
-from backend.app import build_api
 from backend.errors import InvalidRequest, NotFound
 from backend.formats.library_document import library_document
 from backend.law import law_defaults
@@ -25,12 +22,11 @@ from backend.law.front_search import GENERATIONS, POPULATION, front_of
 from backend.law.proposal import KNOBS, Space
 from backend.rides.replay.propose import RUNNING, Candidate, Job, Proposals, codes_of
 from backend.rides.replay.ride_again import RideAgain
-from backend.services import Services
 from backend.store import Store, open_store
 from backend.tuning.limit_proof import LimitProofMaker
 from backend.tuning.records import LimitProofStore
-from backend.web.app import WebSettings
 from firmware_protocol._generated import PARAMETER_BY_NAME
+from tests.fakes.api import api_with, client_of
 from tests.fakes.known_roads import Ridden, road
 from tests.unit.rides.test_a_ride_ridden_again import SPORT, kept, sport
 
@@ -272,8 +268,7 @@ def test_a_wish_that_a_ride_cannot_tell_is_refused(proposals: Proposals, store: 
 
 @pytest.mark.slow
 def test_the_api_takes_a_job_tells_of_it_and_cancels_it(proposals: Proposals, ride_id: int) -> None:
-    services = cast(Services, SimpleNamespace(proposals=proposals))
-    client = TestClient(build_api(WebSettings("test"), services), base_url="http://127.0.0.1")
+    client = client_of(api_with(proposals=proposals))
     question = {"ride_ids": [ride_id], "objective": "more_range", "knobs": ["ratio", "cells"]}
 
     begun = client.post("/api/v1/proposals", json=question)

@@ -6,10 +6,9 @@ The store is a real one in a temporary folder; unit time and wall time are numbe
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from concurrent.futures import Future
 from dataclasses import replace
-from pathlib import Path
 from types import SimpleNamespace
 from typing import cast
 
@@ -28,7 +27,7 @@ from backend.rides.recording.marks import MarkMoment
 from backend.rides.recording.recorder import Recorder, RecordSettings
 from backend.rides.recording.running import RunningTotals
 from backend.server.health import HealthCheck
-from backend.store import Store, open_store
+from backend.store import Store
 from backend.units.service import Devices
 
 # A store for every test, or rides of minutes: left out of `make test-fast`.
@@ -44,12 +43,6 @@ BLOCK_ROWS = 5
 WALL_US = 1_700_000_000_000_000
 SETTINGS = RecordSettings(idle_s=5.0, lead_in_s=1.0, lost_s=10.0)
 Rows16 = npt.NDArray[np.int16]
-
-
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as opened:
-        yield opened
 
 
 @pytest.fixture

@@ -7,28 +7,23 @@ nothing while a brake is on, a fault forbids torque or the torque reading is too
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
 from backend.core.assist_mode import AssistModes
-from backend.core.channels import ChannelSpec, Values
+from backend.core.channels import Values
 from backend.core.fuzzy_table import THESIS_TABLE
-from backend.core.ride import Ride, RideRows
 from backend.errors import InvalidRequest
-from backend.formats import ImportedRide, Outcome
-from backend.imports.service import Uploads
 from backend.law import law_defaults
 from backend.rides.replay.service import RideReplay
-from backend.store import Store, open_store
+from backend.store import Store
 from backend.tuning.preview import Preview
-from firmware_protocol._generated import CHANNELS, InputFlags, LimitFlags
+from firmware_protocol._generated import InputFlags, LimitFlags
+from tests.fakes.kept_rides import config_of, imported_ride
 
 ROWS, PERIOD_US = 1000, 10_000
-SPECS = {row.name: ChannelSpec(row.name, row.unit, float(row.scale)) for row in CHANNELS}
 PUSHING = {
     "speed_kmh": 12.0,
     "cadence_rpm": 60.0,
@@ -48,25 +43,9 @@ DELIVERED_BY = ("motor_torque_nm", "motor_torque_demanded_nm")
 """Channels of a ride whose motor torque is what the motor gave."""
 
 
-def config_of(ride: Ride, t_s: float = 0.0) -> tuple[dict[str, Any], str]:
-    return law_defaults(), "defaults"
-
-
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as opened:
-        yield opened
-
-
 def replayed(store: Store, columns: dict[str, Values], **changes: Any) -> dict[str, Any]:
     """The answer for a ride of these channels, (ROWS,) each."""
-    specs = tuple(SPECS[name] for name in columns)
-    counts = {spec.name: spec.to_counts(columns[spec.name]).astype(np.int16) for spec in specs}
-    rows = RideRows(specs, np.arange(ROWS, dtype=np.int64) * PERIOD_US, counts)
-    outcome = Outcome("complete", (ImportedRide(1_700_000_000_000_000, PERIOD_US, rows),))
-    uploads = Uploads(store, reader=lambda path, name: outcome)
-    (ride_id,) = uploads.receive_file("a.csv", b"as it came").ride_ids
-    uploads.close()
+    ride_id = imported_ride(store, columns, PERIOD_US)
     return RideReplay(Preview(), config_of)(store.rides.reader(ride_id), **{**SPORT, **changes})
 
 

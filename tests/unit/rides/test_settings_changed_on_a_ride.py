@@ -7,9 +7,7 @@ by one configuration, the second by another; an answer for a part is that of a r
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -29,11 +27,12 @@ from backend.rides.replay.service import RideReplay
 from backend.rides.replay.why_ride import WhyRide
 from backend.rides.rows import Window
 from backend.rides.settings_in_force import all_through, unchanged
-from backend.store import Store, open_store
+from backend.store import Store
 from backend.tuning.preview import Preview
+from tests.fakes.kept_rides import recorded_ride
 from tests.unit.rides.test_recording import SETTINGS as RECORDING
 from tests.unit.rides.test_recording import blocks, riding
-from tests.unit.rides.test_why_a_moment_was_as_it_was import PERIOD_US, PUSHING, SPECS
+from tests.unit.rides.test_why_a_moment_was_as_it_was import PERIOD_US, PUSHING
 
 # A store for every test: left out of `make test-fast`.
 pytestmark = pytest.mark.slow
@@ -42,12 +41,6 @@ OLD, NEW, OTHER = 0x11, 0xFFFF_FFF0, 0x33
 WRAP_US = 1 << 32
 BEGAN_US = WRAP_US - 20_000_000
 """The unit's clock when it is ridden: its low 32 bits begin again after 20 s."""
-
-
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as opened:
-        yield opened
 
 
 @dataclass
@@ -219,16 +212,10 @@ def config_of(ride: Ride, t_s: float = 0.0) -> tuple[dict[str, Any], str]:
 
 def kept(store: Store, first: int, second: int | None = None) -> int:
     """A ride by one configuration, and by a second one from its middle on."""
-    specs = tuple(SPECS[name] for name in STEADY)
-    columns = [spec.to_counts(np.full(ROWS, STEADY[spec.name])) for spec in specs]
-    context = RideContext(unit_key="ebl:SP-1", config_crc32=first, config_generation=4)
+    columns = {name: np.full(ROWS, value) for name, value in STEADY.items()}
     events = [] if second is None else [RideEvent(HALF_S, SETTINGS, second)]
-    rides = store.rides
-    ride_id = rides.start_live(specs, PERIOD_US, 1_700_000_000_000_000, context)
-    rows = np.stack(columns, axis=1).astype(np.int16)
-    rides.append_tail(ride_id, 0, rows, events).result()
-    rides.finish(ride_id)
-    return ride_id
+    context = {"unit_key": "ebl:SP-1", "config_crc32": first, "config_generation": 4}
+    return recorded_ride(store, columns, PERIOD_US, events=events, **context)
 
 
 def test_a_moment_is_explained_by_the_table_it_was_ridden_by(store: Store) -> None:

@@ -43,12 +43,6 @@ CADENCE = ChannelSpec("cadence_rpm", "rpm", 0.5)
 CHANNELS = (SPEED, DISTANCE, HIDDEN, LATITUDE, LONGITUDE)
 
 
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as opened:
-        yield opened
-
-
 def there_and_back(bearing: float, times: int = 2, far_m: float = 2000.0) -> np.ndarray:
     """Metres east and north (n, 2), a row each second at 5 m/s, out and home again and again."""
     out = np.arange(0.0, far_m, 5.0)

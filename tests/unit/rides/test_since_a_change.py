@@ -14,19 +14,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from backend.core.channels import ChannelSpec
 from backend.core.revision import Revision
-from backend.core.ride import RideContext
 from backend.core.ride_events import SETTINGS, RideEvent
 from backend.errors import NotFound
 from backend.rides.comparison.since_change import SinceChange
 from backend.store import Store, open_store
-from firmware_protocol._generated import CHANNELS
+from tests.fakes.kept_rides import recorded_ride
 
 # A store for every test: left out of `make test-fast`.
 pytestmark = pytest.mark.slow
 
-SPECS = {row.name: ChannelSpec(row.name, row.unit, float(row.scale)) for row in CHANNELS}
 PERIOD_US = 100_000
 HOUR_US = 3_600_000_000
 UNIT = "ebl:SP-1"
@@ -57,17 +54,10 @@ class Workshop:
             given_nm = motor_w / MOTOR_RAD_S
             values |= {"motor_torque_nm": given_nm, "motor_torque_demanded_nm": given_nm}
             values |= {"motor_speed_rpm": 2400.0}
-        specs = tuple(SPECS[name] for name in values)
-        count = seconds * 1_000_000 // PERIOD_US
-        columns = [spec.to_counts(np.full(count, values[spec.name])) for spec in specs]
+        columns = {name: np.full(seconds * 1_000_000 // PERIOD_US, v) for name, v in values.items()}
         self.now_us += HOUR_US
-        context = RideContext(unit_key=unit)
-        ride_id = self.store.rides.start_live(specs, PERIOD_US, self.now_us, context, "a ride")
         events = [] if changed_s is None else [RideEvent(changed_s, SETTINGS, self.next_seq)]
-        rows = np.stack(columns, axis=1).astype(np.int16)
-        self.store.rides.append_tail(ride_id, 0, rows, events).result()
-        self.store.rides.finish(ride_id)
-        return ride_id
+        return recorded_ride(self.store, columns, PERIOD_US, self.now_us, events, unit_key=unit)
 
     @property
     def next_seq(self) -> int:

@@ -16,20 +16,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from backend.core.channels import ChannelSpec, Values
+from backend.core.channels import Values
 from backend.core.revision import Revision
-from backend.core.ride import RideContext
 from backend.rebuild import rebuild_store
 from backend.rides.diagnosis.sensor_drift import SensorDriftService, calibrations_of
 from backend.rides.diagnosis.service import RideZeros
 from backend.store import Store, open_store
-from firmware_protocol._generated import CHANNELS
+from tests.fakes.kept_rides import recorded_ride
 from tests.fakes.simulated_ride import GAIN_NM_PER_COUNT, LOOK_S, simulated_ride
 
 # A store for every test: left out of `make test-fast`.
 pytestmark = pytest.mark.slow
 
-SPECS = {row.name: ChannelSpec(row.name, row.unit, float(row.scale)) for row in CHANNELS}
 RECORDED = ("rider_torque_raw", "rider_torque_nm", "cadence_rpm", "speed_kmh")
 TEMPERATURE = "sensor_temperature_degc"
 UNIT = "ebl:SP-1"
@@ -76,15 +74,8 @@ class Workshop:
         values["rider_torque_nm"] += zero_nm - offset_nm
         if degc is not None:
             values[TEMPERATURE] = np.full(len(values["speed_kmh"]), degc)
-        specs = tuple(SPECS[name] for name in values)
-        columns = [spec.to_counts(values[spec.name]) for spec in specs]
         began_us = START_US + round(self.day * DAY_US)
-        context = RideContext(unit_key=unit)
-        rides = self.store.rides
-        ride_id = rides.start_live(specs, round(LOOK_S * 1e6), began_us, context, "a ride")
-        rides.append_tail(ride_id, 0, np.stack(columns, axis=1).astype(np.int16)).result()
-        rides.finish(ride_id)
-        return ride_id
+        return recorded_ride(self.store, values, round(LOOK_S * 1e6), began_us, unit_key=unit)
 
     def months(self, days: float, rides: int, seed: int = 1) -> list[int]:
         """Rides in all weathers, spread over some days; the zero walks as planted."""

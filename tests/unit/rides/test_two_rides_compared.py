@@ -6,8 +6,6 @@ figures of a whole ride are those of its own summary.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,16 +16,10 @@ from backend.errors import InvalidRequest, NotFound
 from backend.law import law_defaults
 from backend.rides.comparison.service import RideComparison
 from backend.rides.rows import Window
-from backend.store import Store, open_store
+from backend.store import Store
 from tests.unit.rides.test_why_a_moment_was_as_it_was import ROWS, config_of, kept
 
 PUSH = np.full(ROWS, 20.0)
-
-
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as opened:
-        yield opened
 
 
 def figures_of(told: dict[str, Any], part: str) -> dict[str, Any]:

@@ -15,21 +15,19 @@ from typing import Any
 import numpy as np
 import pytest
 
-from backend.core.channels import ChannelSpec
 from backend.core.filled import Filled
 from backend.core.fuzzy_table import THESIS_TABLE
-from backend.core.ride import Ride, RideContext
+from backend.core.ride import Ride
 from backend.errors import InvalidRequest, NotFound
 from backend.law import law_defaults
 from backend.rides.insight.table_use import RIDES_MAX, UseOfTable
 from backend.store import RideReader, Store, open_store
 from backend.store.reader import LiveRows
-from firmware_protocol._generated import CHANNELS
+from tests.fakes.kept_rides import begun_ride
 
 # A store for every test: left out of `make test-fast`.
 pytestmark = pytest.mark.slow
 
-SPECS = {row.name: ChannelSpec(row.name, row.unit, float(row.scale)) for row in CHANNELS}
 PERIOD_US = 10_000
 SECOND = 100  # rows
 SPORT, BOOST = 3.0, 4.0
@@ -69,17 +67,12 @@ class Shop:
 
     def begin(self, *stretches: dict[str, float], unit: str = "ebl:SP-1") -> int:
         """A ride of stretches of a second each, newer than all before; it is going on."""
-        specs = tuple(SPECS[name] for name in stretches[0])
-        columns = [
-            spec.to_counts(np.repeat([stretch[spec.name] for stretch in stretches], SECOND))
-            for spec in specs
-        ]
+        columns = {
+            name: np.repeat([stretch[name] for stretch in stretches], SECOND)
+            for name in stretches[0]
+        }
         self.started_us += 3_600_000_000
-        context = RideContext(unit_key=unit)
-        ride_id = self.store.rides.start_live(specs, PERIOD_US, self.started_us, context, "a ride")
-        rows = np.stack(columns, axis=1).astype(np.int16)
-        self.store.rides.append_tail(ride_id, 0, rows).result()
-        return ride_id
+        return begun_ride(self.store, columns, PERIOD_US, self.started_us, unit_key=unit)
 
     def ride(self, *stretches: dict[str, float], unit: str = "ebl:SP-1") -> int:
         ride_id = self.begin(*stretches, unit=unit)

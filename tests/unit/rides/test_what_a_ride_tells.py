@@ -6,26 +6,17 @@ parts are the ride's own summary.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from pathlib import Path
-
 import numpy as np
 import pytest
 
-from backend.core.ride import Ride
 from backend.law import law_defaults
 from backend.rides.questions import Insight
-from backend.store import Store, open_store
+from backend.store import Store
+from tests.fakes.kept_rides import config_of as nobody_kept
 from tests.unit.rides.test_why_a_moment_was_as_it_was import PUSHING, ROWS, config_of, kept
 
 RIDER_W = 20.0 * PUSHING["cadence_rpm"] * 2.0 * np.pi / 60.0
 PUSH = np.full(ROWS, 20.0)
-
-
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as opened:
-        yield opened
 
 
 def test_the_modes_come_to_the_whole_ride(store: Store) -> None:
@@ -47,9 +38,6 @@ def test_the_modes_come_to_the_whole_ride(store: Store) -> None:
 
 
 def test_a_mode_has_no_name_that_nobody_kept(store: Store) -> None:
-    def nobody_kept(ride: Ride, t_s: float = 0.0) -> tuple[dict[str, object], str]:
-        return law_defaults(), "defaults"
-
     asked_only = kept(store, motor_torque_demanded_nm=None)
     told = Insight(store, nobody_kept).energy(asked_only)
 
@@ -73,9 +61,6 @@ def test_zones_need_the_riders_threshold(store: Store) -> None:
 
 
 def test_the_diagnosis_uses_the_rides_own_limits(store: Store) -> None:
-    def nobody_kept(ride: Ride, t_s: float = 0.0) -> tuple[dict[str, object], str]:
-        return law_defaults(), "defaults"
-
     sagging = np.where(np.arange(ROWS) < 800, 36.0, 26.0)
     ride_id = kept(store, battery_voltage_v=sagging, rider_torque_nm=PUSH)
 

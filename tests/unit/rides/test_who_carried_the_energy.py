@@ -6,27 +6,17 @@ table, so that each rule's energy is torque x speed x time by hand.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from pathlib import Path
-
 import numpy as np
 import pytest
 
-from backend.core.ride import Ride
 from backend.errors import InvalidRequest
-from backend.law import law_defaults
 from backend.rides.insight.ledger import EnergyLedger
-from backend.store import Store, open_store
+from backend.store import Store
+from tests.fakes.kept_rides import config_of as nobody_kept
 from tests.unit.rides.test_why_a_moment_was_as_it_was import PUSHING, ROWS, config_of, kept
 
 POWER_W = 0.5 * PUSHING["motor_speed_rpm"] * 2.0 * np.pi / 60.0
 TOTAL_WH = POWER_W * ROWS * 0.01 / 3600.0
-
-
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as opened:
-        yield opened
 
 
 def test_each_mode_and_rule_has_its_own_part(store: Store) -> None:
@@ -58,9 +48,6 @@ def test_each_mode_and_rule_has_its_own_part(store: Store) -> None:
 
 
 def test_what_is_not_known_is_null(store: Store) -> None:
-    def nobody_kept(ride: Ride, t_s: float = 0.0) -> tuple[dict[str, object], str]:
-        return law_defaults(), "defaults"
-
     ride_id = kept(store, torque_rate=np.zeros(ROWS), motor_torque_demanded_nm=None)
 
     asked_only = EnergyLedger(store, config_of)(ride_id)

@@ -7,27 +7,23 @@ where it was measured, and what was recorded after a break not explained by what
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from backend.core.channels import ChannelSpec, Values
-from backend.core.ride import Gap, Ride, RideRows
+from backend.core.channels import Values
+from backend.core.ride import Gap, Ride
 from backend.errors import Conflict, InvalidRequest
-from backend.formats import ImportedRide, Outcome
-from backend.imports.service import Uploads
 from backend.law import law_defaults
 from backend.rides.replay.service import WARM_UP_S, warm_up_row
 from backend.rides.replay.why_ride import WhyRide, cuts_of
-from backend.store import Store, open_store
+from backend.store import Store
 from backend.tuning.why import WhySteady
-from firmware_protocol._generated import CHANNELS, InputFlags, LimitFlags
+from firmware_protocol._generated import InputFlags, LimitFlags
+from tests.fakes.kept_rides import imported_ride
 
 ROWS, PERIOD_US = 1000, 10_000
-SPECS = {row.name: ChannelSpec(row.name, row.unit, float(row.scale)) for row in CHANNELS}
 GEAR = 40.34
 PUSHING = {
     "speed_kmh": 12.0,
@@ -48,12 +44,6 @@ STATE = {"speed_kmh": 12.0, "torque_rate": 0.0, "rider_torque_nm": 20.0, "cadenc
 STATE |= {"mode": 3, "held_s": 5.0}
 
 
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as opened:
-        yield opened
-
-
 def config_of(ride: Ride, t_s: float = 0.0) -> tuple[dict[str, Any], str]:
     return law_defaults(), "ride"
 
@@ -62,14 +52,7 @@ def kept(store: Store, **changes: Values | None) -> int:
     """A ride of these channels, (ROWS,) each; None leaves one out."""
     columns = {name: np.full(ROWS, value) for name, value in PUSHING.items()} | changes
     columns = {name: values for name, values in columns.items() if values is not None}
-    specs = tuple(SPECS[name] for name in columns)
-    counts = {spec.name: spec.to_counts(columns[spec.name]).astype(np.int16) for spec in specs}
-    rows = RideRows(specs, np.arange(ROWS, dtype=np.int64) * PERIOD_US, counts)
-    outcome = Outcome("complete", (ImportedRide(1_700_000_000_000_000, PERIOD_US, rows),))
-    uploads = Uploads(store, reader=lambda path, name: outcome)
-    (ride_id,) = uploads.receive_file("a.csv", repr(columns).encode()).ride_ids
-    uploads.close()
-    return ride_id
+    return imported_ride(store, columns, PERIOD_US)
 
 
 def steps_of(answer: dict[str, Any]) -> dict[str, dict[str, Any]]:

@@ -18,7 +18,7 @@ from sim_device import preset
 from sim_device.configure import read_image, write_config
 from sim_device.lockstep import LockstepUnit
 from sim_device.preset_unit import parameters_of, preset_unit
-from tests.fakes.new_unit import new_unit_config
+from tests.fakes.simulated_unit import new_unit_config
 
 # A bike's own, which no preset may overwrite.
 MEASURED = {row.name for row in PARAMETERS if row.record == "CALIBRATION"}

@@ -30,8 +30,6 @@ from firmware_protocol._generated import (
     CfgValidateRequest,
     ConfigState,
     Event,
-    EvtFaultListRequest,
-    EvtFaultListResponse,
     FaultFlags,
     LiveSetRequest,
     Status,
@@ -64,12 +62,6 @@ def info(unit: BenchUnit) -> CfgInfoResponse:
     message = unit.ask(CfgInfoRequest()).message
     assert isinstance(message, CfgInfoResponse)
     return message
-
-
-def fault_flags(unit: BenchUnit) -> int:
-    message = unit.ask(EvtFaultListRequest()).message
-    assert isinstance(message, EvtFaultListResponse)
-    return message.fault_flags
 
 
 def test_what_is_written_is_what_is_read_back_now_and_after_the_next_start(
@@ -387,13 +379,13 @@ def test_a_unit_without_a_configuration_says_so_until_the_maker_gives_it_one() -
     provision(unit, maker)
 
     assert unit.read_image() == (0, parameters.pack_image(parameters.default_config()))
-    assert fault_flags(unit) == FaultFlags.NOT_PROVISIONED
+    assert unit.faults() == FaultFlags.NOT_PROVISIONED
     codes = [event.code for event in unit.events]
     assert codes == [Event.BOOT, Event.CONFIG_DEFAULTED, Event.FAULT_SET]
 
     write_with_the_makers_word(unit, maker, CHANGES)
 
-    assert fault_flags(unit) == 0
+    assert unit.faults() == 0
     assert info(unit).generation == 1
 
 

@@ -52,10 +52,6 @@ def confirm(unit: BenchUnit) -> Status | int:
     return unit.ask(CfgConfirmRequest(generation, crc32(image))).status
 
 
-def codes(unit: BenchUnit) -> list[int]:
-    return [event.code for event in unit.events]
-
-
 def test_what_is_on_trial_is_active_and_says_how_long_it_has(unit: BenchUnit) -> None:
     expected = parameters.pack_image(unit.config() | CHANGES)
 
@@ -80,7 +76,7 @@ def test_a_confirmed_trial_stays_for_good(unit: BenchUnit) -> None:
     unit.advance(2 * TRIAL_S)
     assert unit.read_image() == tried
     assert status(unit).state == ConfigState.IDLE
-    assert codes(unit)[-1] == Event.CONFIG_COMMITTED
+    assert unit.event_codes()[-1] == Event.CONFIG_COMMITTED
     unit.boot()
     assert unit.read_image() == tried
 
@@ -90,7 +86,7 @@ def test_confirming_twice_is_no_mistake_because_an_answer_may_be_lost(unit: Benc
     confirm(unit)
 
     assert confirm(unit) == Status.OK
-    assert codes(unit).count(Event.CONFIG_COMMITTED) == 1
+    assert unit.event_codes().count(Event.CONFIG_COMMITTED) == 1
 
 
 @pytest.mark.parametrize("ending", ["time-out", "restart", "asked"])
@@ -120,7 +116,7 @@ def test_whatever_ends_a_trial_brings_back_exactly_what_was_there(
     assert event.fields == {"generation": before[0], "crc32": crc32(before[1])}
     unit.boot()
     assert unit.read_image() == before
-    assert Event.CONFIG_ROLLED_BACK not in codes(unit)
+    assert Event.CONFIG_ROLLED_BACK not in unit.event_codes()
 
 
 def test_the_law_runs_on_what_is_on_trial_and_then_no_more(unit: BenchUnit) -> None:

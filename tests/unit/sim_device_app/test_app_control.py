@@ -14,8 +14,6 @@ from sim_device.firmware.python._native import lib
 from firmware_protocol._generated import (
     Event,
     EvtFaultClearRequest,
-    EvtFaultListRequest,
-    EvtFaultListResponse,
     FaultFlags,
     LimitFlags,
     Status,
@@ -38,12 +36,6 @@ def unit() -> BenchUnit:
     unit.inputs(mode_selected=TOUR)
     unit.advance(SETTLED_S)
     return unit
-
-
-def fault_flags(unit: BenchUnit) -> int:
-    message = unit.ask(EvtFaultListRequest()).message
-    assert isinstance(message, EvtFaultListResponse)
-    return message.fault_flags
 
 
 def fault_events(unit: BenchUnit) -> list[tuple[Event | int, object]]:
@@ -140,7 +132,7 @@ def test_a_fault_is_told_once_when_it_comes_and_once_when_it_is_over(
     healthy = {"torque_raw_counts": 3000.0, "speed_kmh": 10.0, "battery_voltage_v": 36.0}
     unit.inputs(**broken)
     unit.advance(3.0)
-    during = fault_flags(unit)
+    during = unit.faults()
 
     unit.inputs(**healthy)
     unit.advance(3.0)
@@ -148,7 +140,7 @@ def test_a_fault_is_told_once_when_it_comes_and_once_when_it_is_over(
     unit.ask(EvtFaultClearRequest(0xFFFF))
 
     assert during == flag
-    assert fault_flags(unit) == 0
+    assert unit.faults() == 0
     assert fault_events(unit) == [(Event.FAULT_SET, flag), (Event.FAULT_CLEARED, flag)]
 
 
@@ -170,7 +162,7 @@ def test_a_battery_that_recovers_a_little_stays_low(unit: BenchUnit) -> None:
     unit.inputs(battery_voltage_v=30.5)
     unit.advance(5.0)
 
-    assert fault_flags(unit) == FaultFlags.BATTERY_LOW
+    assert unit.faults() == FaultFlags.BATTERY_LOW
 
 
 def test_events_are_numbered_without_a_gap_from_the_boot_on(unit: BenchUnit) -> None:

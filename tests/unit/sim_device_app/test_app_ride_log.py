@@ -30,6 +30,7 @@ from firmware_protocol._generated import (
 )
 from firmware_protocol.parameters import default_config, pack_image
 from tests.fakes.bench_logs import (
+    BLOCK_BYTES,
     SESSION,
     acknowledge,
     begin,
@@ -40,21 +41,11 @@ from tests.fakes.bench_logs import (
     logs,
     ride,
     unit_with_log,
+    unit_with_room,
 )
-from tests.fakes.bench_unit import BenchUnit
 
-BLOCK_BYTES = 2048
-LOG_BYTES = 32 * BLOCK_BYTES
 ROWS_PER_BLOCK = 472 // (2 * len(CHANNELS))
 """SPEC 11: a block has 472 bytes for rows of one i16 a channel."""
-
-
-def unit_with_room() -> BenchUnit:
-    return unit_with_log(BLOCK_BYTES, LOG_BYTES)
-
-
-def codes(unit: BenchUnit) -> list[Event | int]:
-    return [event.code for event in unit.events]
 
 
 def test_a_bike_that_stands_makes_no_log() -> None:
@@ -83,7 +74,7 @@ def test_a_ride_becomes_one_closed_log_with_a_row_every_tenth_of_a_second() -> N
 
     (log,) = logs(unit)
     assert log.flags == LogFlags.ENDED
-    assert codes(unit).count(Event.LOG_CLOSED) == 1
+    assert unit.event_codes().count(Event.LOG_CLOSED) == 1
     outcome = read_blocks(fetch(unit, log))
     assert (outcome.state, outcome.completeness) == ("complete", 1.0)
     (found,) = outcome.rides
@@ -245,10 +236,10 @@ def test_a_full_flash_gives_up_confirmed_logs_first_and_says_when_it_must_take_a
     ride(unit, 3.0)
     while second in logs(unit):
         ride(unit, 3.0)
-    assert Event.LOG_OVERWRITTEN not in codes(unit)
+    assert Event.LOG_OVERWRITTEN not in unit.event_codes()
     assert directory(unit).overwritten == 0
     assert first in logs(unit)
-    while Event.LOG_OVERWRITTEN not in codes(unit):
+    while Event.LOG_OVERWRITTEN not in unit.event_codes():
         ride(unit, 3.0)
 
     assert first not in logs(unit)

@@ -16,6 +16,7 @@ from firmware_protocol._generated import (
     Status,
 )
 from tests.fakes.bench_logs import (
+    BLOCK_BYTES,
     SESSION,
     Entry,
     begin,
@@ -25,15 +26,9 @@ from tests.fakes.bench_logs import (
     logs,
     ride,
     unit_with_log,
+    unit_with_room,
 )
 from tests.fakes.bench_unit import BenchUnit
-
-BLOCK_BYTES = 2048
-LOG_BYTES = 32 * BLOCK_BYTES
-
-
-def unit_with_room() -> BenchUnit:
-    return unit_with_log(BLOCK_BYTES, LOG_BYTES)
 
 
 def erase(unit: BenchUnit, log: Entry) -> codec.Response:

@@ -8,6 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from backend.core.channels import ChannelSpec
+from backend.core.ride import RideContext
+from backend.store import Store
 
 CHANNELS = tuple(
     ChannelSpec(name, unit, scale)
@@ -89,3 +91,10 @@ def honest_ride(rows: int, seed: int = 1) -> Rows16:
     )
     pairs = zip(CHANNELS, columns, strict=True)
     return np.stack([channel.to_counts(values) for channel, values in pairs], 1).astype(np.int16)
+
+
+def recording(store: Store, rows: int = 300) -> int:
+    """The id of a ride that is recorded and going on."""
+    ride_id = store.rides.start_live(CHANNELS, PERIOD_US, STARTED_US, RideContext())
+    store.rides.append_tail(ride_id, 0, honest_ride(rows)).result()
+    return ride_id

@@ -23,7 +23,8 @@ from backend.errors import Conflict, ObjectDamaged, StoreError
 from backend.rebuild import rebuild_store
 from backend.store import Store, open_store
 from backend.store.upkeep.check import check_store
-from tests.unit.store.test_a_database_is_rebuilt import add_imported, add_recorded, urls
+from tests.unit.conftest import urls
+from tests.unit.store.test_a_database_is_rebuilt import add_imported, add_recorded
 
 pytestmark = pytest.mark.slow
 

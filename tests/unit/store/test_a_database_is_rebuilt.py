@@ -29,6 +29,7 @@ from backend.store import Store, Verdict, open_store
 from backend.store.filling import Filling
 from backend.store.objects import IDENTITY, sidecar_key
 from backend.store.upkeep.check import check_store
+from tests.unit.conftest import urls
 from tests.unit.store.ride_data import STARTED_US
 
 pytestmark = pytest.mark.slow
@@ -43,10 +44,6 @@ CHANNELS = (
 ALTITUDE = ChannelSpec("altitude_m", "m", 0.1, wide=True)
 HOUR_US = 3_600_000_000
 ROWS = 400
-
-
-def urls(folder: Path, database: str = "spindle.db") -> tuple[str, str]:
-    return f"sqlite:///{folder}/{database}", (folder / "objects").as_uri()
 
 
 def add_recorded(store: Store, number: int, rows: int = ROWS) -> Ride:

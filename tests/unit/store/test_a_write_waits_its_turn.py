@@ -1,13 +1,17 @@
 """Goal: a change waits for whoever else holds SQLite's one write lock: another program for a
 second, or a reader for an instant, who takes it to look at the head of a log just being written.
 
-Method: a second connection holds the lock while a change that reads first is under way.
+While the database gives the disk some back, what is written beside it is saved.
+
+Method: a second connection holds the lock while a change that reads first is under way; a reader
+that stays in the middle of its query while the log of changes is to be emptied.
 """
 
 from __future__ import annotations
 
 import sqlite3
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing, contextmanager
 from pathlib import Path
 from threading import Timer
@@ -16,6 +20,7 @@ import pytest
 from sqlalchemy import Connection, text
 
 from backend.errors import StoreError
+from backend.store import open_store
 from backend.store.sql import database as module
 from backend.store.sql.database import Database
 
@@ -62,3 +67,22 @@ def test_who_waits_too_long_is_told_without_a_word_of_sql(
         pytest.raises(StoreError, match=r"^The database did not save the change: database is loc"),
     ):
         database.write(read_then_write)
+
+
+def test_a_long_reader_and_a_shrinking_database_refuse_no_write(tmp_path: Path) -> None:
+    with open_store(f"sqlite:///{tmp_path}/db", f"file://{tmp_path}/objects") as store:
+        store.uploads.create("before", 1, None, 60)
+        with store.database.engine.connect() as reader, ThreadPoolExecutor(1) as housekeeping:
+            reader.execute(text("SELECT count(*) FROM upload")).scalar()
+            store.uploads.create("what the reader does not see", 1, None, 60)
+            shrinking = housekeeping.submit(store.database.give_back)
+
+            for number in range(20):
+                store.uploads.create(f"meanwhile {number}", 1, None, 60)
+
+            shrinking.result()
+
+        assert len(store.uploads.list(50)) == 22
+        assert (tmp_path / "db-wal").stat().st_size > 0
+        store.database.give_back()
+        assert (tmp_path / "db-wal").stat().st_size == 0

@@ -20,6 +20,7 @@ from backend.errors import StoreError
 from backend.store import Store
 from backend.store.objects import Disk, FileObjects
 from backend.store.sql.database import Database
+from tests.fakes.failing_disk import FailingDisk
 from tests.unit.store.ride_data import CHANNELS, PERIOD_US, STARTED_US, honest_ride
 
 # Processes, compilers or hundreds of files: left out of `make test-fast`.
@@ -42,30 +43,6 @@ for start in range(0, len(rows), 100):
     store.rides.append_tail(ride_id, start, rows[start : start + 100]).result()
     print(start + 100, flush=True)
 """
-
-
-class FailingDisk(Disk):
-    """Fails at its Nth step, as a full or a dying disk does; N counts from 1."""
-
-    def __init__(self, failing_step: int) -> None:
-        self.left = failing_step
-
-    def step(self) -> None:
-        self.left -= 1
-        if self.left == 0:
-            raise OSError(28, "No space left on device")
-
-    def flush_file(self, path: Path) -> None:
-        self.step()
-        super().flush_file(path)
-
-    def rename(self, source: Path, target: Path) -> None:
-        self.step()
-        super().rename(source, target)
-
-    def flush_folder(self, path: Path) -> None:
-        self.step()
-        super().flush_folder(path)
 
 
 def test_a_killed_recording_is_a_whole_ride_at_the_next_start(

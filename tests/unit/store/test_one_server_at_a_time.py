@@ -16,11 +16,10 @@ from types import SimpleNamespace
 
 import pytest
 
-from backend.core.ride import RideContext
 from backend.errors import StoreError
 from backend.store import Store, locks, open_store
 from backend.store.upkeep.check import check_store
-from tests.unit.store.ride_data import CHANNELS, PERIOD_US, STARTED_US, honest_ride
+from tests.unit.store.ride_data import honest_ride, recording
 
 ROWS = 300
 BEHIND = "import sys; from backend.store import open_store; store = open_store(*sys.argv[1:]); "
@@ -28,12 +27,6 @@ BEHIND = "import sys; from backend.store import open_store; store = open_store(*
 
 def opened(folder: Path, database: str = "spindle.db", objects: str = "objects") -> Store:
     return open_store(f"sqlite:///{folder}/{database}", (folder / objects).as_uri())
-
-
-def recording(store: Store) -> int:
-    ride_id = store.rides.start_live(CHANNELS, PERIOD_US, STARTED_US, RideContext())
-    store.rides.append_tail(ride_id, 0, honest_ride(ROWS)).result()
-    return ride_id
 
 
 def test_a_second_server_with_a_folder_of_its_own_is_refused_and_ends_no_ride(

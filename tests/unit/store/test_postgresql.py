@@ -22,16 +22,15 @@ from alembic.migration import MigrationContext
 from sqlalchemy import create_engine
 
 import backend.store
-from backend.core.ride import RideContext
 from backend.errors import StoreError
 from backend.rebuild import rebuild_store
-from backend.store import Store, open_store
+from backend.store import open_store
 from backend.store.sql import advisory
 from backend.store.sql.advisory import AdvisoryLock, lock_engine
 from backend.store.sql.tables import metadata
 from backend.store.upkeep.check import check_store
 from tests.fakes.postgres import Postgres
-from tests.unit.store.ride_data import CHANNELS, PERIOD_US, STARTED_US, honest_ride
+from tests.unit.store.ride_data import honest_ride, recording
 
 pytestmark = pytest.mark.slow
 ROWS = 300
@@ -55,12 +54,6 @@ def url(cluster: Postgres) -> str:
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
     monkeypatch.setattr(advisory, "CHECK_EVERY_S", NEVER_S)
     return (tmp_path / "objects").as_uri()
-
-
-def recording(store: Store) -> int:
-    ride_id = store.rides.start_live(CHANNELS, PERIOD_US, STARTED_US, RideContext())
-    store.rides.append_tail(ride_id, 0, honest_ride(ROWS)).result()
-    return ride_id
 
 
 def lose_lock_connection(cluster: Postgres, url: str) -> None:
@@ -148,7 +141,7 @@ def test_the_lock_dies_with_its_process_and_the_ride_is_closed_by_the_next(
 ) -> None:
     script = (
         "import sys; from backend.store import open_store\n"
-        "from tests.unit.store.test_postgresql import recording\n"
+        "from tests.unit.store.ride_data import recording\n"
         "store = open_store(*sys.argv[1:]); recording(store); print('in', flush=True)\n"
         "sys.stdin.read()"
     )

@@ -13,7 +13,6 @@ from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from importlib.resources import files
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any, cast
 from urllib.parse import quote
 
@@ -21,16 +20,14 @@ import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 
-from backend.app import build_api
 from backend.core.fuzzy_table import FuzzyTable
-from backend.services import Services
 from backend.store import open_store
 from backend.tuning.library.compare import Compare
 from backend.tuning.library.records import LibraryStore
 from backend.tuning.library.service import Library, preset_etag
 from backend.tuning.service import Tuning
-from backend.web.app import WebSettings
 from firmware_protocol.configuration_file import read
+from tests.fakes.api import api_with, client_of
 
 LIBRARY = "/api/v1/library"
 ROOT = Path(__file__).resolve().parents[3]
@@ -45,9 +42,7 @@ def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
     with open_store(f"sqlite:///{tmp_path}/spindle.db", f"file://{tmp_path}/objects") as store:
         library = Library(LibraryStore(store.database))
         compare = Compare(library, cast(Tuning, None))
-        services = cast(Services, SimpleNamespace(library=library, compare=compare))
-        app = build_api(WebSettings("test", author="workshop"), services)
-        yield TestClient(app, base_url="http://127.0.0.1")
+        yield client_of(api_with(author="workshop", library=library, compare=compare))
 
 
 def saved(name: str) -> Document:

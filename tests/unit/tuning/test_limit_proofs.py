@@ -8,14 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from datetime import UTC, datetime
-from types import SimpleNamespace
 from typing import Any, cast
 
 import pytest
 from fastapi.testclient import TestClient
 
-from backend.app import build_api
-from backend.services import Services
 from backend.store import Store, open_store
 from backend.tuning.library.records import LibraryStore
 from backend.tuning.library.service import Library
@@ -23,8 +20,8 @@ from backend.tuning.limit_proof import LimitProofMaker, ProveLimits, ProvenRevis
 from backend.tuning.records import LimitProofStore, RevisionStore
 from backend.tuning.service import Tuning
 from backend.units.service import Devices
-from backend.web.app import WebSettings
 from firmware_protocol.parameters import default_config
+from tests.fakes.api import api_with, client_of
 
 PATH = "/api/v1/proofs"
 FIRMWARE = "0.3.0"
@@ -42,8 +39,7 @@ def client(store: Store) -> TestClient:
     kept = LimitProofMaker(LimitProofStore(store.database), FIRMWARE)
     library = Library(LibraryStore(store.database))
     prove_limits = ProveLimits(kept, cast(Devices, None), cast(Tuning, None), library)
-    services = cast(Services, SimpleNamespace(prove_limits=prove_limits))
-    return TestClient(build_api(WebSettings("test"), services), base_url="http://127.0.0.1")
+    return client_of(api_with(prove_limits=prove_limits))
 
 
 def asked(client: TestClient, **question: Any) -> dict[str, Any]:

@@ -21,8 +21,9 @@ from firmware_protocol.parameters import default_config
 from sim_device.lockstep import LockstepUnit
 from tests.fakes.revisions import MemoryRevisions
 from tests.fakes.server import eventually
+from tests.fakes.simulated_unit import LockstepAsUnit
 from tests.fakes.unit import FakeUnit
-from tests.fakes.unit_link import LockstepAsUnit, UnitOpener
+from tests.fakes.unit_link import UnitOpener
 
 NOW_S = 1_700_000_000.0
 NOTHING = LiveView({}, None, None)

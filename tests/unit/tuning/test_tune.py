@@ -7,8 +7,7 @@ firmware does the same in tests/simulation.
 from __future__ import annotations
 
 import zlib
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from datetime import UTC, datetime
 
 import pytest
@@ -29,45 +28,11 @@ from backend.tuning.service import Tuning
 from backend.tuning.types import etag
 from backend.units.service import Devices
 from firmware_protocol._generated import PARAMETER_BY_NAME, MessageId
-from firmware_protocol.parameters import default_config, pack_image, unpack_image
+from firmware_protocol.parameters import default_config, pack_image
 from tests.fakes.revisions import MemoryRevisions
 from tests.fakes.unit import FakeUnit
 from tests.fakes.unit_link import UnitOpener
-
-URL = "socket://bench:1"
-NOW_S = 1_700_000_000.0
-# One parameter of every typed view that is not as the factory set it.
-OTHER = {
-    "fuzzy_table_name": "another",
-    "assist_mode_at_start": 1,
-    "torque_filter_s": 0.7,
-    "pedal_stop_ms": 200,
-}
-
-
-KEY = f"ebl:{b'FAKE-UNIT-01'.hex()}"
-
-
-@dataclass
-class Bench:
-    unit: FakeUnit
-    tuning: Tuning
-    revisions: MemoryRevisions
-    id: str
-
-    @property
-    def held(self) -> dict[str, object]:
-        """What the unit holds."""
-        return dict(unpack_image(self.unit.image))
-
-
-@pytest.fixture
-def bench() -> Iterator[Bench]:
-    unit, revisions = FakeUnit(), MemoryRevisions()
-    devices = Devices(opener=lambda url: UnitOpener(unit, url))
-    device = devices.add(URL)
-    yield Bench(unit, Tuning(devices, revisions, lambda: NOW_S), revisions, device.id)
-    devices.close()
+from tests.unit.tuning.conftest import KEY, NOW_S, URL, Bench
 
 
 def test_a_change_is_in_the_unit_proven_and_tells_what_changed(bench: Bench) -> None:
@@ -365,124 +330,6 @@ def test_parameters_come_with_bounds_meaning_and_value(bench: Bench) -> None:
     assert rows["mode_laws"].choices == ("off", "fixed", "fuzzy")
     assert rows["gear_ratio"].access == "factory"
     assert list(rows) == list(PARAMETER_BY_NAME)
-
-
-def test_the_fuzzy_table_is_read_edited_and_written_as_one(bench: Bench) -> None:
-    table = bench.tuning.read_part(bench.id, "fuzzy_table").value
-    assert table["name"] == "thesis 4-2"
-    assert table["inference"] == "mamdani_centroid"
-    table["rules"][0][0] = "PB"
-
-    change = bench.tuning.write_part(bench.id, "fuzzy_table", table, "more at the start")
-
-    assert [one.name for one in change.changed] == ["fuzzy_rules"]
-    assert bench.tuning.read_part(bench.id, "fuzzy_table").value == table
-
-
-def test_the_second_table_is_written_beside_the_first(bench: Bench) -> None:
-    first = bench.tuning.read_part(bench.id, "fuzzy_table").value
-    table = bench.tuning.read_part(bench.id, "second_fuzzy_table").value
-    assert table["name"] == "thesis 4-2, smooth"
-    table["rules"][0][0] = "PB"
-    table["gain_points"][0] = 0.05
-
-    change = bench.tuning.write_part(bench.id, "second_fuzzy_table", table, "")
-
-    assert [one.name for one in change.changed] == ["second_gain_points", "second_rules"]
-    assert bench.tuning.read_part(bench.id, "second_fuzzy_table").value == table
-    assert bench.tuning.read_part(bench.id, "fuzzy_table").value == first
-
-
-def test_points_both_tables_share_are_not_changed_by_way_of_the_second(bench: Bench) -> None:
-    table = bench.tuning.read_part(bench.id, "second_fuzzy_table").value
-    table["speed_points_kmh"][4] = 24.0
-    table["rules"][0][0] = "PB"
-
-    with pytest.raises(LimitViolation) as caught:
-        bench.tuning.write_part(bench.id, "second_fuzzy_table", table, "")
-
-    assert [(fault.field, fault.code) for fault in caught.value.fields] == [
-        ("speed_points_kmh", "shared")
-    ]
-    assert bench.held == default_config()
-
-
-def test_a_fault_in_the_second_table_names_the_field_of_the_view(bench: Bench) -> None:
-    table = bench.tuning.read_part(bench.id, "second_fuzzy_table").value | {"name": "冬" * 9}
-
-    with pytest.raises(InvalidRequest) as caught:
-        bench.tuning.write_part(bench.id, "second_fuzzy_table", table, "")
-
-    assert [fault.field for fault in caught.value.fields] == ["name"]
-
-
-@pytest.mark.parametrize(("market", "ends_kmh"), [("eu_epac", 25.0), ("japan", 24.0)])
-def test_the_limits_say_where_the_market_lets_assist_end(
-    bench: Bench, market: str, ends_kmh: float
-) -> None:
-    bench.unit.image = pack_image(default_config() | {"market": market})
-
-    limits = bench.tuning.read_part(bench.id, "limits").value
-
-    assert (limits["assist_cutoff_kmh"], limits["market"]) == (25.0, market)
-    assert limits["effective_assist_cutoff_kmh"] == ends_kmh
-
-
-def test_what_was_read_as_limits_can_be_written_back_as_it_is(bench: Bench) -> None:
-    bench.unit.image = pack_image(default_config() | {"market": "japan"})
-    limits = bench.tuning.read_part(bench.id, "limits").value
-
-    change = bench.tuning.write_part(bench.id, "limits", limits | {"pedal_stop_ms": 200}, "")
-
-    assert [one.name for one in change.changed] == ["pedal_stop_ms"]
-    assert bench.held == default_config() | {"market": "japan", "pedal_stop_ms": 200}
-
-
-def test_the_assist_modes_are_five_slots(bench: Bench) -> None:
-    modes = bench.tuning.read_part(bench.id, "assist_modes").value
-    modes["modes"][1] = {"name": "rain", "law": "fuzzy", "ratio": 0.75}
-
-    bench.tuning.write_part(bench.id, "assist_modes", modes, "")
-
-    assert bench.held["mode_names"] == ["off", "rain", "tour", "sport", "boost"]
-    assert bench.held["mode_laws"] == ["off", "fuzzy", "fixed", "fuzzy", "fuzzy"]
-    assert bench.held["mode_ratios"] == [0.0, 0.75, 1.0, 1.0, 1.5]
-
-
-def test_a_fault_in_a_typed_view_names_the_field_of_the_view(bench: Bench) -> None:
-    modes = bench.tuning.read_part(bench.id, "assist_modes").value
-    modes["modes"][4]["ratio"] = 7.5
-
-    with pytest.raises(LimitViolation) as caught:
-        bench.tuning.write_part(bench.id, "assist_modes", modes, "")
-
-    assert [fault.field for fault in caught.value.fields] == ["modes[4].ratio"]
-
-
-def test_calibration_and_limits_are_views_of_the_same_configuration(bench: Bench) -> None:
-    calibration = bench.tuning.read_part(bench.id, "calibration").value | {
-        "sensor_offset_counts": 812.0
-    }
-    limits = bench.tuning.read_part(bench.id, "limits").value | {"assist_cutoff_kmh": 20.0}
-
-    bench.tuning.write_part(bench.id, "calibration", calibration, "new zero")
-    change = bench.tuning.write_part(bench.id, "limits", limits, "")
-
-    assert bench.held["sensor_offset_counts"] == 812.0
-    assert bench.held["assist_cutoff_kmh"] == 20.0
-    assert change.generation == 9
-
-
-@pytest.mark.parametrize("view", ["fuzzy_table", "assist_modes", "calibration", "limits"])
-def test_a_typed_view_can_be_tried_like_any_other_change(bench: Bench, view: str) -> None:
-    value = bench.tuning.read_part(bench.id, view).value
-    bench.unit.image = pack_image(default_config() | OTHER)
-
-    change = bench.tuning.write_part(bench.id, view, value, "try", None, 30)
-
-    assert change.changed
-    assert change.state == "provisional"
-    assert change.expires_at is not None
 
 
 def test_a_trial_that_is_over_is_noted_at_once_and_only_once(bench: Bench) -> None:

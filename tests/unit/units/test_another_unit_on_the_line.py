@@ -1,7 +1,9 @@
-"""Goal: what was meant for one bike is never done to the next one on the same cable.
+"""Goal: what was meant for one bike is never done to the next one on the same cable,
+and whatever changes the unit on a connection can name the unit that it is for.
 
 Method: two factory-fresh units of the small honest kind, one behind the other on one connection,
 behind the real thread and the real services. Both have the same generation and the same content.
+Who can name a unit is read in the description of the API.
 """
 
 from __future__ import annotations
@@ -18,6 +20,7 @@ from backend.units.outcome import find_outcome
 from backend.units.service import Devices
 from firmware_protocol._generated import MessageId
 from firmware_protocol.parameters import default_config, unpack_image
+from tests.fakes.api import description
 from tests.fakes.revisions import MemoryRevisions
 from tests.fakes.server import eventually
 from tests.fakes.unit import FakeUnit
@@ -131,3 +134,22 @@ def test_b_is_not_asked_what_became_of_a_s_change(bench: Bench) -> None:
         )
 
     assert caught.value.outcome == "unknown"
+
+
+UNDER_A_CONNECTION = "/devices/{device_id}/"
+
+
+def test_every_change_under_a_connection_takes_the_unit_s_key_and_may_refuse() -> None:
+    changes = [
+        operation
+        for path, operations in description()["paths"].items()
+        if UNDER_A_CONNECTION in path
+        for method, operation in operations.items()
+        if method != "get"
+    ]
+
+    assert len(changes) >= 12
+    for operation in changes:
+        headers = {one["name"] for one in operation["parameters"] if one["in"] == "header"}
+        assert "spindle-unit" in headers, operation["operationId"]
+        assert "412" in operation["responses"], operation["operationId"]

@@ -1,4 +1,5 @@
-"""Goal: what a browser is sent live is the unit's rows, and every row it does not get is counted.
+"""Goal: what a browser is sent live is the unit's rows, and every row it does not get is counted; a
+viewer that vanished without a word is let go, and no fault of the server's.
 
 Blocks are fed as the reader's thread feeds them; frames are taken apart by the layout that the
 contract gives (u32, u32, u64, u16, u16, then i16), not by the code that made them.
@@ -6,15 +7,18 @@ contract gives (u32, u32, u64, u16, u16, then i16), not by the code that made th
 
 from __future__ import annotations
 
+import asyncio
 import json
 import struct
+from typing import Any
 
 import numpy as np
+from anyio.from_thread import start_blocking_portal
 
 from backend.core.channels import ChannelSpec
 from backend.device.states import LinkState, StateChanged
 from backend.device.stream import StreamBlock, StreamStarted
-from backend.units.live import frame_of
+from backend.units.live import frame_of, live
 from backend.units.watch import QUEUE_FRAMES_MAX, Feed, LiveRows, StateNow, Viewer
 
 CHANNELS = (ChannelSpec("speed_kmh", "km/h", 0.01), ChannelSpec("cadence_rpm", "rpm", 0.01))
@@ -194,3 +198,40 @@ def test_a_unit_in_fast_motion_makes_no_more_than_fifty_frames_a_second() -> Non
 
     assert len(screen.frames) <= 51
     assert sum(len(frame[3]) for frame in screen.frames) >= 5 * 980
+
+
+class Watch:
+    """Says one thing to each viewer, and remembers who left."""
+
+    def __init__(self) -> None:
+        self.left: list[Viewer] = []
+
+    def join(self, device_id: str, channels: object, rate_hz: object, viewer: Viewer) -> None:
+        viewer.put(StateNow("ready", None))
+
+    def leave(self, viewer: Viewer) -> None:
+        self.left.append(viewer)
+
+
+class ClosedSocket:
+    """uvicorn closed it, because no ping was answered; nobody has heard of it yet."""
+
+    async def accept(self) -> None: ...
+
+    async def receive(self) -> None:
+        await asyncio.Event().wait()
+
+    async def send_text(self, text: str) -> None:
+        raise RuntimeError(
+            "Unexpected ASGI message 'websocket.send', after sending 'websocket.close'."
+        )
+
+
+def test_a_viewer_that_answers_no_ping_is_no_fault() -> None:
+    watch: Any = Watch()
+    socket: Any = ClosedSocket()
+
+    with start_blocking_portal() as portal:
+        portal.call(live, socket, "bike", watch)
+
+    assert len(watch.left) == 1

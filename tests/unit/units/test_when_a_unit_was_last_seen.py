@@ -6,14 +6,12 @@ The unit is the small honest one behind a real thread; what was seen is kept in 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from datetime import UTC, datetime
-from pathlib import Path
 
 import pytest
 
 from backend.errors import NoAnswer, NotFound
-from backend.store import Store, UnitSighting, open_store
+from backend.store import Store, UnitSighting
 from backend.tuning.records import RevisionStore
 from backend.tuning.service import Tuning
 from backend.units.last_seen import LastSeen
@@ -27,14 +25,6 @@ URL = "socket://bench:1"
 KEY = f"ebl:{b'FAKE-UNIT-01'.hex()}"
 NOON_US = 1_800_000_000_000_000
 MINUTE_US = 60_000_000
-
-
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    objects = (tmp_path / "objects").as_uri()
-    opened = open_store(f"sqlite:///{tmp_path / 'spindle.db'}", objects)
-    yield opened
-    opened.close()
 
 
 def bench(opener: UnitOpener, last_seen: LastSeen) -> Devices:
