@@ -11,13 +11,7 @@ import math
 import pytest
 from sim_device.firmware.python._native import lib
 
-from firmware_protocol._generated import (
-    Event,
-    EvtFaultClearRequest,
-    FaultFlags,
-    LimitFlags,
-    Status,
-)
+from firmware_protocol._generated import Event, EvtFaultClearRequest, FaultFlags, LimitFlags, Status
 from tests.fakes.bench_unit import BenchUnit
 
 RIDER_NM = 30.0

@@ -23,7 +23,7 @@ from backend.units.service import Devices
 from firmware_protocol.parameters import default_config
 from tests.fakes.api import api_with, client_of
 
-PATH = "/api/v1/proofs"
+PATH = "/api/v1/certificates"
 FIRMWARE = "0.3.0"
 
 

@@ -9,11 +9,7 @@ from __future__ import annotations
 import pytest
 from pydantic import BaseModel
 
-from backend.errors import (
-    AccessDenied,
-    InvalidRequest,
-    LimitViolation,
-)
+from backend.errors import AccessDenied, InvalidRequest, LimitViolation
 from backend.tuning.models.law import Calibration, UnitLimits
 from firmware_protocol._generated import PARAMETERS
 from firmware_protocol.parameters import default_config, pack_image
