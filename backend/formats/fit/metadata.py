@@ -119,15 +119,15 @@ def instruments_of(data: bytes, cells: Bytes, part: Part) -> tuple[Instrument, .
         )
     ]
     index = table.values("device_index")
-    instruments: dict[float, dict[str, object]] = {}
+    by_index: dict[float, dict[str, object]] = {}
     for row in range(len(table)):
         number = float(index[row])
-        if np.isnan(number) or (number not in instruments and len(instruments) >= INSTRUMENTS_MAX):
+        if np.isnan(number) or (number not in by_index and len(by_index) >= INSTRUMENTS_MAX):
             continue
         facts = instrument(table, row, names[row])
-        before = instruments.setdefault(number, {})
+        before = by_index.setdefault(number, {})
         before |= {name: value for name, value in facts.items() if value is not None}
-    return tuple(Instrument(**facts) for facts in instruments.values() if facts)  # type: ignore[arg-type]
+    return tuple(Instrument(**facts) for facts in by_index.values() if facts)  # type: ignore[arg-type]
 
 
 def instrument(table: Table, row: int, name: str) -> dict[str, object]:
