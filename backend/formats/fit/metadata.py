@@ -127,7 +127,7 @@ def instruments_of(data: bytes, cells: Bytes, part: Part) -> tuple[Instrument, .
         facts = instrument(table, row, names[row])
         before = by_index.setdefault(number, {})
         before |= {name: value for name, value in facts.items() if value is not None}
-    return tuple(Instrument(**facts) for facts in by_index.values() if facts)  # type: ignore[arg-type]
+    return tuple(Instrument(**one) for one in by_index.values() if one)  # type: ignore[arg-type]
 
 
 def instrument(table: Table, row: int, name: str) -> dict[str, object]:
