@@ -173,7 +173,7 @@ def make_revisions(store: Store) -> tuple[ProvenRevisions, LimitProofMaker]:
 
 
 def make_health(devices: Devices, recorder: Recorder, store: Store) -> HealthCheck:
-    """What is told of units, recordings and the store."""
+    """Status of units, recordings and the store."""
     return HealthCheck(
         __version__,
         devices,
@@ -281,7 +281,7 @@ def tidy(
 
 
 def in_background(name: str, work: Callable[[], object]) -> None:
-    """Does what the server need not wait for; a failure is told in the log."""
+    """Does what the server need not wait for; a failure is logged."""
 
     def run() -> None:
         try:
@@ -296,7 +296,7 @@ def in_background(name: str, work: Callable[[], object]) -> None:
 def every_second(**works: Callable[[], object]) -> Iterator[None]:
     """Does each of `works` once a second, on a thread of its own, until the context ends.
 
-    Whatever one raises is told in the log, and its thread goes on.
+    Whatever one raises is logged, and its thread goes on.
     """
     stopped = threading.Event()
 

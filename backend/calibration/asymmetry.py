@@ -1,6 +1,6 @@
 """Left against right, and what bending of the spindle adds over the crank's angle.
 
-A diagnosis: the unit has no coefficient for it, the fit is told none of it.
+A diagnosis: the unit has no coefficient for it, the fit does not use it.
 
 A mass pulls downwards with F at a pedal, the lever b outside the spindle's bearing. It bends the
 spindle by F b, at every angle of the crank the same, in a plane that stays while the gauges turn.
@@ -12,7 +12,7 @@ With a the angle of the pedal that is hung on, the spindle's is a or a + 180 deg
 pedal is across. So that is s (p F cos a + q F sin a), s = +1 right, -1 left, and since the load is
 F l cos a, its first part is a share of the load with the sign of the side at every angle: a
 left/right difference like any other. No angle tells it apart, and no rider who pushes down feels
-another. The second part is told by captures where the crank is not level. The residuals in counts
+another. The second part shows in captures where the crank is not level. The residuals in counts
 are regressed on
 
     s load / 2              left/right difference, bending in the plane of the crank within

@@ -1,6 +1,6 @@
 """How sure a torque reading is: the uncertainty budget by GUM (JCGM 100:2008), in Nm over torque.
 
-A limit `a` that nobody knows more of counts as a rectangle, a / root 3 (4.3.7). Contributions are
+A limit `a` with no further information counts as a rectangle, a / root 3 (4.3.7). Contributions are
 independent of each other and add as squares (5.1.2); what the loads share is its own contribution.
 Effective degrees of freedom by Welch and Satterthwaite (G.4.1); limits have infinitely many.
 """

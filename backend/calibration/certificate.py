@@ -31,7 +31,7 @@ Text = Annotated[str, Field(max_length=200)]
 
 @dataclass(frozen=True, slots=True)
 class About(Plain):
-    """Which unit, when, by whom, with what. None: nobody told. number: of the unit's calibrations,
+    """Which unit, when, by whom, with what. None: unknown. number: of the unit's calibrations,
     from 1. software: name and version of what worked it out."""
 
     number: Annotated[int, Field(ge=1)]

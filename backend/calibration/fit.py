@@ -76,7 +76,7 @@ class Residual(Plain):
 class Fit(Plain):
     """covariance: of the coefficients in `names`, from the scatter alone. repeatability_nm:
     standard deviation of one capture beyond its own noise. temperature: `both`, `offset` or
-    `none`, with `temperature_span_k` that the captures cover; None where none was told."""
+    `none`, with `temperature_span_k` that the captures cover; None without temperatures."""
 
     coefficients: Coefficients
     names: tuple[str, ...]

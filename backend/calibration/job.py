@@ -8,7 +8,7 @@ setup     None before there is one
 fitted_us since when nothing changed after the fit; None before, and after each change
 unit_nm   by the number of a capture, what the unit itself told then
 changes   of the unit's record that were read back, oldest first
-pending   a change that was begun and of which nobody knows yet whether the unit has it
+pending   a change that was begun and whose outcome in the unit is still unknown
 certificate  of what was written: about, worked, sha256
 result    of a closed job
 clock_set  at_us, by_us, dated of each time the host's clock was set meanwhile; absent if never

@@ -22,7 +22,7 @@ from backend.calibration.unit_record import coefficients_of
 from backend.units.types import Device
 
 STEADY_STEP_S = 0.5
-"""How finely it is told since when the readings are steady."""
+"""The resolution of how long the readings have been steady."""
 
 MISSING_SHARE_MAX = 0.05
 """As many readings may be missing as may be damaged."""

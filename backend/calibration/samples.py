@@ -96,7 +96,7 @@ class RecentReadings:
         self._retained: dict[str, _Retained] = {}
 
     def follow(self, device_id: str, event: DeviceEvent) -> None:
-        """Keep what a unit sent; once it is gone, whoever comes next may be another one."""
+        """Retain what a unit sent; after a disconnection the next unit may be another one."""
         if isinstance(event, StateChanged) and event.state not in CONNECTED:
             with self._lock:
                 self._retained.pop(device_id, None)

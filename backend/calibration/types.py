@@ -278,7 +278,7 @@ class Job(JobSummary):
     expanded: Mapping[str, float]
     """Uncertainty (k = 2) of each coefficient that was fitted, by its name."""
     unsure: Literal["write", "restore"] | None
-    """Begun, and nobody knows whether the unit has it; repeating it finds out."""
+    """Begun, with unknown outcome in the unit; repeating it finds out."""
     clock_set: tuple[ClockSet, ...]
     earlier_of_bike: tuple[JobSummary, ...]
     earlier_of_model: tuple[JobSummary, ...]

@@ -90,7 +90,7 @@ class CalibrationRecord:
     def close(self, job_id: int, author: str) -> None:
         """Close a job; its file is what `spindle calibrate evaluate` reads.
 
-        Raises Conflict while nobody knows whether the unit has what was begun to be written.
+        Raises Conflict while the outcome of a write is unknown.
         """
         job = self._store.get(job_id)
         if job.body["pending"] is not None:

@@ -168,7 +168,7 @@ def upload(options: Namespace) -> int:
                 break
             time.sleep(SCAN_EVERY_S)
     except KeyboardInterrupt:
-        # The way to end a watch; what was done is told as ever.
+        # The way to end a watch; what was done is printed as usual.
         pass
     counted = Counter(map(standing, answers))
     if options.json:

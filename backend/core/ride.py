@@ -94,7 +94,7 @@ class RideSummary:
 
 @dataclass(frozen=True, slots=True)
 class RideContext:
-    """What was true of the bike while the ride was made; None where nobody knows.
+    """What was true of the bike while the ride was made; None where unknown.
 
     device_id: the connection it came over. unit_key: as of core.unit_key. boot_id, unit_t0_us:
     which start of the unit, and its clock at the ride's first row: together with the key they tell
@@ -115,14 +115,14 @@ class RideContext:
 
 @described
 class RidePlace:
-    """Where a ride began: the nearest town of GeoNames. Null for what nobody knows."""
+    """Where a ride began: the nearest town of GeoNames. Null for what is unknown."""
 
     name: str | None = None
     """The nearest town's."""
     country: str | None = None
     """ISO 3166 code of two letters."""
     zone: str | None = None
-    """Of the IANA database: a local time is told by it."""
+    """Of the IANA database: local times are in it."""
     is_loop: bool | None = None
     """It ended where it began."""
 
@@ -137,7 +137,7 @@ class Ride:
     completeness: share of the rows that should be there (0..1), None when nobody can say; a stretch
     filled from a log counts as there. filled: those stretches. events: what happened. cut_short:
     the recording ended while the bike moved, or with its server, so that nobody knows what came
-    after. bike_id: the bike its unit was on; None where nobody knows the unit. sport: as the file
+    after. bike_id: the bike its unit was on; None where the unit is unknown. sport: as the file
     calls it, None for none. intake: what became of the file's rows and fields, None for what came
     from no file. metadata: what the device that made the file told beside its rows. same_ride_as:
     another device's recording of the same ride. tags: words its rider gave it. place,
@@ -181,7 +181,7 @@ class Ride:
 
     def settings_spans(self) -> list[tuple[float, int | None]]:
         """When each configuration came into force, s after the start, and its CRC-32: the first at
-        0, None where nobody knows it."""
+        0, None where it is unknown."""
         first = self.context.config_crc32
         later = settings_changes(self.events, first)
         return [(0.0, first), *((event.t_s, event.value) for event in later)]

@@ -67,7 +67,7 @@ def events_of_rows(
 def merged(
     rows: Sequence[RideEvent], reported: Sequence[RideEvent], same_s: float
 ) -> list[RideEvent]:
-    """What the rows show and what was told besides, in order of time.
+    """What the rows show and what was reported besides, in order of time.
 
     same_s: so far apart they are one and the same. What is in no row is only told: of that none
     is left out, however many there are of the rest.
@@ -92,7 +92,7 @@ def merged(
 def settings_changes(events: Sequence[RideEvent], crc32: int | None = None) -> list[RideEvent]:
     """The events at which the settings became others, in order of time.
 
-    crc32: of the configuration before the first of them, None where nobody knows it.
+    crc32: of the configuration before the first of them, None where it is unknown.
     """
     changes: list[RideEvent] = []
     for event in sorted((event for event in events if event.kind == SETTINGS), key=_time):

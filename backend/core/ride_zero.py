@@ -41,7 +41,7 @@ class RideZero:
 @dataclass(frozen=True, slots=True)
 class ZeroOfRide:
     """A ride, when it began, and its zero. config_*: which configuration its unit had then; None
-    where nobody knows."""
+    where it is unknown."""
 
     ride_id: int
     started_us: int

@@ -1,6 +1,6 @@
 """Whether the host's clock was set while Spindle runs.
 
-A machine without a battery for its clock starts in the past and is told the time once it has a
+A machine without a battery for its clock starts in the past and gets the time once it has a
 network, maybe in the middle of a ride. Unix time then moves against the time since the machine was
 switched on, which nobody can set; that alone tells a clock that was set from rows that came late,
 from a unit whose time is granted, and from one that runs faster than the world.

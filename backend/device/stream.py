@@ -32,7 +32,7 @@ class LostBy(StrEnum):
 class StreamStarted:
     """A subscription began: what its blocks hold.
 
-    epoch: counts the host's subscriptions to this unit, so a restarted unit is told apart too.
+    epoch: counts the host's subscriptions to this unit, so a restart of the unit is detected too.
     """
 
     epoch: int

@@ -367,7 +367,7 @@ def starts_of(blocks: Sequence[Block], t0_us: int) -> list[tuple[int, int]]:
 def start_of(blocks: Sequence[Block], t0_us: int) -> int | None:
     """Unix time of unit time `t0_us`, None where no SYNC tells it.
 
-    The unit's own last word: it was told the time again where the clock of its host was set. What
+    The unit's last SYNC: its clock was set again where the clock of its host was set. What
     the host appended later counts only without one.
     """
     own = starts_of([block for block in blocks if block.seq != HOST_SEQ], t0_us)
@@ -376,7 +376,7 @@ def start_of(blocks: Sequence[Block], t0_us: int) -> int | None:
 
 
 def clock_of(blocks: Sequence[Block], t0_us: int, length_us: int) -> list[RideEvent]:
-    """When the unit was told another time than before, by its SYNC blocks."""
+    """When the unit's clock was set to another time, by its SYNC blocks."""
     return [
         RideEvent(min(max(0, t_us - t0_us), length_us) / 1e6, CLOCK_SET, round(by_us / 1000))
         for (_, before_us), (t_us, after_us) in pairwise(starts_of(blocks, t0_us))

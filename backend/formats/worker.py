@@ -5,7 +5,7 @@ A request is a line of JSON on standard input, {"path": ..., "name": ..., "cpu_s
 was said of a table}. An answer on standard output is its length as u64, WORN and MORE as u8, and
 the bytes of `answer.encode`; for a request with "unpack" it is a frame for each file within the
 archive, as `containers.frames` has them, all but the last with MORE. A worn child ends. Exit 3: out
-of memory; 4: nobody asked for long.
+of memory; 4: no request for a long time.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ def end_with_the_server() -> None:
     if not hasattr(select, "poll"):
         return
     reader = select.poll()
-    # Nothing is asked for: that the other end is closed is told all the same.
+    # No event is subscribed to: the closing of the other end is reported all the same.
     reader.register(sys.stdout.fileno(), 0)
 
     def watch() -> None:
@@ -90,7 +90,7 @@ def is_worn() -> bool:
 
 
 def requests() -> bool:
-    """Whether another request comes; False after a long time without, where that can be told."""
+    """Whether another request comes; False after a long time without, if the system can tell."""
     if not hasattr(select, "poll"):
         return True
     poll = select.poll()

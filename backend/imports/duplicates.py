@@ -234,7 +234,7 @@ def separation_m(ours: BySecond, theirs: BySecond) -> npt.NDArray[np.float64] | 
 
 
 def distance_m(ride: BySecond, first: int, last: int) -> float | None:
-    """How far a ride went between two seconds; None where nobody knows."""
+    """How far a ride went between two seconds; None where it is unknown."""
     inside = (ride.unix_s >= first) & (ride.unix_s <= last)
     odometer = ride["distance_m"][inside]
     odometer = odometer[np.isfinite(odometer)]
@@ -288,7 +288,7 @@ def rides_of_boot(rides: RideStore, key: str, boot_id: int) -> Iterator[Ride]:
 
 
 def ride_span_us(ride: Ride) -> tuple[int, int]:
-    """Unit time from a ride's first row to behind its last; nothing where nobody knows it."""
+    """Unit time from a ride's first row to behind its last; nothing where it is unknown."""
     began_us = ride.context.unit_t0_us
     if began_us is None or ride.period_us is None:
         return 0, 0

@@ -147,7 +147,7 @@ class Lanes:
                 promise.set_result(upload)
 
     def _fail(self, upload_id: str, promise: Future[Upload], error: Exception) -> None:
-        """Whoever waits is told; nobody may, so the log is told as well, once of what lasts."""
+        """Whoever waits gets the error; the log gets it too, once while it lasts."""
         sentence = f"Upload {upload_id} is not read: {error}"
         if sentence not in self._logged:
             self._logged.add(sentence)

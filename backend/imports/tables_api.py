@@ -1,4 +1,4 @@
-"""Tables whose units or zone nobody knows but their owner: asked, answered, remembered."""
+"""Tables whose units or time zone are missing: the owner's answers are stored for their header."""
 
 from __future__ import annotations
 

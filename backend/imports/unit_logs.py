@@ -78,7 +78,7 @@ class Download:
 class UnitLog:
     """A log in a unit as people see it. state: recording, closed, or cut_off by a lost supply.
 
-    started_at: None where the unit was started again since, so that nobody knows.
+    started_at: None where the unit was started again since, so that it is unknown.
     """
 
     log_id: int

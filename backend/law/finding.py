@@ -12,7 +12,7 @@ from backend.core.described import described
 class Finding:
     """code: for programs. message: for people. where: the cell, point or field; None for all.
 
-    values: what the message tells, by name, for whoever says it in another language.
+    values: the figures of the message, by name, for translations.
     """
 
     code: str

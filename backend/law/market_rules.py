@@ -1,7 +1,7 @@
 """What of a table, its modes and limits the unit's market leaves without effect.
 
 None of it is dangerous: the unit gives what its market allows, whatever is written. But a dealer
-who reads 25 km/h on a bike that stops helping at 24 was told something that is not so.
+who reads 25 km/h on a bike that stops helping at 24 was misinformed.
 """
 
 from __future__ import annotations

@@ -183,7 +183,7 @@ class Road:
     """Rides that are ridden again as one: the twins, and what the wish is measured by."""
 
     def __init__(self, twins: Sequence[RoadTwin], objective: str, config: Config) -> None:
-        """config: of the rides. Raises InvalidRequest where a wish cannot be told from them."""
+        """config: of the rides. Raises InvalidRequest where a wish cannot be evaluated on them."""
         self._twins = twins
         self._objective = objective
         self._crank_per_motor = float(config["gear_ratio"])

@@ -1,7 +1,7 @@
 """The road of a recorded ride, over the distance instead of the time.
 
 The force that held the bike is what the drive did, less what the speed took, over one turn of the
-crank; the air is told apart by a prior, because one ride cannot tell it from the wind.
+crank; the air is separated by a prior, because one ride cannot tell it from the wind.
 """
 
 from __future__ import annotations

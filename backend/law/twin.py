@@ -61,7 +61,7 @@ UNSPECIFIED = RiderAndBike()
 
 
 def assumed_of(rider_and_bike: RiderAndBike) -> Assumed:
-    """With usual values for what nobody told."""
+    """With usual values for what was not given."""
     usual = Assumed()
     return replace(
         usual,
@@ -71,7 +71,7 @@ def assumed_of(rider_and_bike: RiderAndBike) -> Assumed:
 
 
 def around(given: float | None, likely: tuple[float, float]) -> tuple[float, float]:
-    """Where a value lies: near what was told, else anywhere likely."""
+    """Range of a value: near the given one, else anywhere likely."""
     if given is None:
         return likely
     return given * (1.0 - GIVEN_WITHIN), given * (1.0 + GIVEN_WITHIN)
@@ -85,7 +85,7 @@ class RoadTwin:
     """A recorded ride that can be ridden again.
 
     self_replay: what the twin makes of the ride without any change. one_gear: nobody shifted.
-    assumed: what stands for what no ride tells. rider: the one an estimate is told for, who holds
+    assumed: substitutes for what no ride records. rider: of the estimate, who holds
     his power; where he shifted, his cadence too. recorded: what the record came to.
     reach_m: a radian of the chainring goes so far, in the middle gear.
     """

@@ -194,7 +194,7 @@ def _changes(
     for step, left_nm in traced.left_nm.items():
         name, limit = STEP_OF[step]
         if traced.walk and step in OF_THE_LAW:
-            # All five are what walk assist asks for; it is told once.
+            # All five are what walk assist asks for; it is reported once.
             if step == OF_THE_LAW[-1]:
                 changes.append((WALK_ASSIST, left_nm, None))
                 before_nm = left_nm

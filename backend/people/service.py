@@ -100,7 +100,7 @@ class Keys:
     def add(
         self, person_id: int, name: str, scopes: Iterable[Permission], expires_at: datetime | None
     ) -> tuple[ApiKey, str]:
-        """A new key and what a program sends, which is told this once.
+        """A new key and what a program sends, which is shown only this once.
 
         Raises InvalidRequest, NotFound, StoreError.
         """

@@ -184,7 +184,7 @@ def share(store: Store, ride: Ride, file_format: str, blur_m: float) -> Export:
 
 
 def what_is_shown(store: Store, ride: Ride, blur_m: float) -> ShownRide:
-    """The rows that may be told, of the channels that a stranger's format knows."""
+    """The rows that may be shown, of the channels that a stranger's format knows."""
     reader = verified(store, ride)
     channels = tuple(channel for channel in ride.offered if channel.name in KNOWN)
     count = reader.row_count
@@ -284,7 +284,7 @@ def member(name: str, packed: int) -> ZipInfo:
 
 
 def facts(ride: Ride) -> list[object]:
-    """The cells of a ride; nothing for what nobody knows."""
+    """The cells of a ride; empty for what is unknown."""
     words = (ride.name, ride.notes, ", ".join(ride.tags))
     figures = [getattr(ride.summary, name, None) for name in FIGURES]
     numbers = ["" if value is None else round(value, 3) for value in figures]

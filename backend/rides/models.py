@@ -26,7 +26,7 @@ class RideChannel(Answer):
 
 
 class RideDevice(Answer):
-    """What was true of the bike while the ride was made; null where nobody knows."""
+    """What was true of the bike while the ride was made; null where unknown."""
 
     device_id: str | None = Field(description="The connection it was recorded over.")
     device_serial: str | None

@@ -101,7 +101,7 @@ def unchanged(config_of: ConfigOf, ride: Ride) -> tuple[Config, str]:
 
 @dataclass
 class SettingsInForce:
-    """The newest of a ride that is recorded. crc32: of its image, None while nobody knows it."""
+    """The newest of a ride that is recorded. crc32: of its image, None while it is unknown."""
 
     crc32: int | None = None
     since_s: float = 0.0
@@ -109,7 +109,7 @@ class SettingsInForce:
     def change(self, t_s: float, crc32: int) -> RideEvent | None:
         """The event of a configuration that is in force from t_s on; None where nothing changed.
 
-        What comes late is told with its own time; what is first known was so from the start.
+        What comes late has its own time; what is first known was so from the start.
         """
         if self.crc32 is None:
             t_s = 0.0

@@ -32,7 +32,7 @@ class UnitSighting:
 def bike_of_ride(connection: Connection, context: RideContext, started_us: int) -> int | None:
     """The bike a ride was made with, made like its unit where they are not known.
 
-    None where nobody knows which unit it was. What is older than a unit's first bike is its too.
+    None where the unit is unknown. What is older than a unit's first bike is its too.
     """
     key = context.unit_key
     if key is None:

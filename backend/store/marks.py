@@ -1,4 +1,4 @@
-"""What is told of a ride while it is recorded: moments that somebody marked, settings that changed.
+"""Events added to a ride while it is recorded: moments that somebody marked, settings that changed.
 
 The finished ride has them too.
 """

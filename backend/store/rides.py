@@ -5,7 +5,7 @@
     orphans                                        at open: what a crash left to be finished
 finish(): object first, then ONE transaction that makes the ride `done`, stores overview and
 figures and deletes the tail. A crash before the transaction leaves a live ride with its whole
-tail, and at worst an object nobody knows; finishing again gives the same bytes and so the same key.
+tail, and at worst an unreferenced object; finishing again gives the same bytes and so the same key.
 """
 
 from __future__ import annotations

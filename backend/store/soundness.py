@@ -46,7 +46,7 @@ Signature = tuple[int, int, int]
 
 @dataclass(frozen=True)
 class Expected:
-    """An object as it was written. size_bytes: None where nobody noted it."""
+    """An object as it was written. size_bytes: None where it was not recorded."""
 
     key: str
     size_bytes: int | None

@@ -72,7 +72,7 @@ class ProvenRevisions:
     def append(
         self, unit_key: str, parameters: Mapping[str, Any], *rest: Any, **named: Any
     ) -> Revision:
-        """As RevisionLog. A limit proof that cannot be kept is told in the log; it can be made
+        """As RevisionLog. A limit proof that cannot be stored is logged; it can be made
         at any time."""
         added = self._revisions.append(unit_key, parameters, *rest, **named)
         if has_law(parameters):

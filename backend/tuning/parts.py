@@ -35,7 +35,7 @@ class ConfigPart:
 
     fields: parameter -> its place in the JSON, so that a fault marks the right field of a form.
     compared: parameters the part shows and may not change, because another part owns them.
-    unknown_while_lost: what nobody knows while defaults stand in place of what was lost.
+    unknown_while_lost: what is unknown while defaults stand in place of what was lost.
     """
 
     read: Callable[[Mapping[str, Value]], dict[str, Any]]
@@ -59,7 +59,7 @@ def _by_name(
 ) -> ConfigPart:
     """A part whose JSON is the parameters themselves.
 
-    readers: what follows from them, by name; it is told with them and not written.
+    readers: what follows from them, by name; it is shown with them and not written.
     """
     readers = readers or {}
 
@@ -110,7 +110,7 @@ def _assist_modes() -> ConfigPart:
 
 
 def _calibration(table: ParameterTable) -> ConfigPart:
-    """Sensor and record of its calibration; what the maker gave it is told and not written."""
+    """Sensor and record of its calibration; what the maker gave it is shown and not written."""
     names = table.group("sensor") + table.group("calibration")
     readers = {name: itemgetter(name) for name in names if name in table.factory}
     return _by_name(tuple(name for name in names if name not in readers), readers)

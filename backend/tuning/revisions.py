@@ -1,4 +1,4 @@
-"""Every configuration a unit is known to have had, and changes whose outcome nobody knows yet."""
+"""Every configuration a unit is known to have had, and changes whose outcome is still unknown."""
 
 from __future__ import annotations
 

@@ -62,7 +62,7 @@ class LastSeen:
         return follow
 
     def close(self) -> None:
-        """Write what is not written yet; a store that refuses it is told in the log."""
+        """Write what is not written yet; a store that refuses it is logged."""
         with self._lock:
             sightings = list(self._sightings.values())
         try:

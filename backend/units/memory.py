@@ -71,7 +71,7 @@ class UnitMemory:
             LOG.debug("%s changed while Spindle was closing.", device_id)
 
     def ride_context(self, device_id: str) -> RideContext:
-        """What is true of a unit's bike now; None where nobody knows yet. Never waits."""
+        """What is true of a unit's bike now; None while unknown. Never waits."""
         device = self._devices.get(device_id)
         with self._lock:
             config = self._configs.get(device_id)

@@ -17,7 +17,7 @@ class UnitStore:
 
     def __init__(self, database: Database) -> None:
         self._database = database
-        # What those who must not wait are told: this server alone changes it.
+        # For callers that must not wait: this server alone changes it.
         self._bikes = database.read(bikes_now)
 
     def note_unit(self, unit: UnitSighting) -> None:

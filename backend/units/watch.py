@@ -2,7 +2,7 @@
 
 A feed belongs to one unit, one list of channels and one rate. It is fed by the unit's reader
 thread and fills the queues of its viewers. A viewer's queue is bounded: a slow viewer loses the
-oldest rows and is told how many. Nothing here waits, so a slow browser never delays the reader.
+oldest rows and is notified how many. Nothing here waits, so a slow browser never delays the reader.
 
 What comes is the unit's state whenever it changes, what the rows are before the first of them and
 whenever that changes, and the rows.
@@ -114,7 +114,7 @@ class Viewer:
         dropped = self._items[position]
         del self._items[position]
         if isinstance(dropped, LiveRows):
-            # Loss is told before the rows that follow it, so it is added to the next ones.
+            # Loss is reported before the rows that follow it, so it is added to the next ones.
             self._lost_rows += len(dropped.counts) + dropped.lost_rows
 
 
@@ -225,7 +225,7 @@ class Feed:
 
 
 class Device(Protocol):
-    """What a viewer is told of a unit when it joins."""
+    """What a viewer gets about a unit when it joins."""
 
     @property
     def state(self) -> str: ...

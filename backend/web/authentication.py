@@ -134,7 +134,7 @@ def author_of(
     ] = None,
 ) -> str:
     """The author of a change: who signed in, else whom the request names, else the name the server
-    was started with; empty where nobody knows."""
+    was started with; empty where unknown."""
     caller = caller_of(request)
     if caller is not None:
         return SignedInName(caller.person.name)

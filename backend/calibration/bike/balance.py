@@ -25,7 +25,7 @@ from backend.core.statistics import Numbers
 from backend.errors import FieldError
 
 MOTOR_MOST_W = 1.0
-"""More, and the motor helped: its share cannot be told from the legs' this way."""
+"""More, and the motor helped: its share cannot be separated from the legs' this way."""
 
 CLIMB_LEAST_J = 3000.0
 """A hundred kilograms up three metres: less is a bump, and its height is not known to a percent."""

@@ -94,7 +94,7 @@ def resistance(runs: Sequence[Run], climb_inputs: ClimbInputs) -> Resistance:
 
 
 def typical(climb_inputs: ClimbInputs) -> Resistance:
-    """Of a bike of which nobody knows more: rectangles wide enough for all of them."""
+    """Of an unknown bike: rectangles wide enough for all bikes."""
     weight_n = climb_inputs.mass_kg * climb_inputs.gravity_ms2
     rolling = TYPICAL_ROLLING_LIMIT * weight_n / ROOT_3
     air = TYPICAL_AIR_LIMIT_NS2_M2 / ROOT_3

@@ -29,7 +29,7 @@ CADENCE, ANGLE = "cadence_rpm", "crank_angle_deg"
 TURNS_MIN = 20.0
 """Fewer, and where the crank stood at either end decides."""
 SPACING_S_MAX = 0.15
-"""Half a turn at 200 rpm: over longer ones nobody knows how often the crank came round."""
+"""Half a turn at 200 rpm: over longer ones the crank's turns are ambiguous."""
 
 
 class CadenceCheck:

@@ -27,7 +27,7 @@ from backend.store import Store
 from backend.tuning.types import ParameterView
 
 GAP_S_MAX = 2.5
-"""Over a longer silence nobody knows what the bike did; a head unit tells one row a second."""
+"""Over a longer gap the bike's motion is unknown; a head unit records one row a second."""
 
 
 @dataclass(frozen=True)
@@ -133,7 +133,7 @@ class WheelMeasure:
 
     def _track(self, question: TrackQuestion, wheel: Rows) -> Rows:
         """The other device's rows at the same time. Two clocks differ by seconds: the bike stands
-        at both ends, or nobody knows where it was."""
+        at both ends, or its position is unknown."""
         ends = wheel[SPEED][[0, -1]]
         if ends.max() > MOVING_KMH:
             message = "the bike must stand at both ends of the window: the clocks of two differ"

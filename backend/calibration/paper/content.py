@@ -58,7 +58,7 @@ class Certified:
 
 @dataclass(frozen=True)
 class Manner:
-    """How it is told. zone: of all moments; UTC unless somebody names another."""
+    """How it is printed. zone: of all moments; UTC unless another is chosen."""
 
     language: str = "en"
     zone: tzinfo = UTC

@@ -194,7 +194,7 @@ def meaning(language: str, code: str) -> str:
 
 
 def cause(language: str, reason: Cause) -> str:
-    """Why it is no pass. A cause without words of the language is told by its own sentence."""
+    """Why it is no pass. A cause without words of the language keeps its own sentence."""
     words = CAUSES_ZH.get(reason.code) if language == "zh" else None
     if words is None:
         return f"{reason.sentence[:1].upper()}{reason.sentence[1:]}."

@@ -30,7 +30,7 @@ class Port:
     usb_serial_number: str | None = None
     """Finds the same adapter again under a new name."""
     in_use: bool | None = None
-    """null where it cannot be told without opening it."""
+    """null where it is unknown without opening it."""
     hint: str | None = None
     """What stands in the way and what to do about it."""
     hint_code: str | None = None
@@ -104,7 +104,7 @@ def _hint(device: str, in_use: bool | None) -> tuple[str, str] | tuple[None, Non
 
 
 def _open_devices() -> set[str] | None:
-    """Files under /dev that a process we may look at has open; None where that cannot be told."""
+    """Files under /dev that a process we may look at has open; None where that is unknown."""
     if not sys.platform.startswith("linux"):
         return None
     return {target for target in _link_targets(Path("/proc")) if target.startswith("/dev/tty")}

@@ -1,19 +1,19 @@
-"""A ride that may be shown to strangers: where it began and ended cannot be told from it.
+"""A ride that may be shown to strangers: where it began and ended cannot be derived from it.
 
 Attacks this is made against, and what is done (Hassan, Rahman, Bates 2018, "Analysis of Privacy
 Protections in Fitness Tracking Social Networks", USENIX Security):
 
 - Rows within the zone around the ride's first or last position are left out whole, also where the
   ride comes through later, and rows without a position beside such rows: no speed, time, height or
-  distance of them is told.
+  distance of them is shown.
 - A zone centred on the door gives the door away, since tracks end on a circle around it. The middle
   is moved by up to half the blur, in a direction that a secret and the neighbourhood decide: the
   same for every ride from that door, so that many of them cannot be averaged. The radius is one and
   a half blurs, so that nothing within one blur of the door is ever told.
-- Distance begins with 0 at the first row that is told, and a hidden stretch adds nothing: it does
+- Distance begins with 0 at the first row that is shown, and a hidden stretch adds nothing: it does
   not tell how far the door is. Time begins there, too. How long a hidden stretch in the middle took
-  is told, since what follows has its true time.
-- Only channels whose meaning is known are told: another could be a position, too. No name is.
+  is shown, since what follows has its true time.
+- Only channels whose meaning is known are included: another could be a position, too. No name is.
 
 Who knows the road, or shares the same rides with several blurs, may still narrow the place down.
 """
@@ -51,7 +51,7 @@ class ShownRide:
 
 
 def shown_rows(rows: RideRows, blur_m: float, secret: bytes) -> Mask | None:
-    """Which rows (n,) may be told; None where the ride has no position at all."""
+    """Which rows (n,) may be shown; None where the ride has no position at all."""
     specs = {channel.name: channel for channel in rows.channels}
     if not {LATITUDE, LONGITUDE} <= specs.keys():
         return None

@@ -66,7 +66,7 @@ def metadata_of(data: bytes, cells: Bytes, part: Part) -> DeviceMetadata:
 
 
 def laps_of(laps: Table) -> tuple[Lap, ...]:
-    """Every lap whose beginning and end are told."""
+    """Every lap with a recorded beginning and end."""
     elapsed_s = laps.values("total_elapsed_time")
     ends_s, starts_s = laps.time_s, laps.values("start_time")
     starts_s = np.where(np.isnan(starts_s), ends_s - elapsed_s, starts_s)
@@ -108,7 +108,7 @@ def pauses_of(events: Table) -> tuple[Pause, ...]:
 
 
 def instruments_of(data: bytes, cells: Bytes, part: Part) -> tuple[Instrument, ...]:
-    """Each device once, by its index in the file: devices are told again as they are heard."""
+    """Each device once, by its index in the file: devices are listed again as they are detected."""
     table = table_of(cells, part.of(DEVICE_INFO), DEVICE_FIELDS)
     names = [
         name
@@ -119,15 +119,15 @@ def instruments_of(data: bytes, cells: Bytes, part: Part) -> tuple[Instrument, .
         )
     ]
     index = table.values("device_index")
-    instruments: dict[float, dict[str, object]] = {}
+    by_index: dict[float, dict[str, object]] = {}
     for row in range(len(table)):
         number = float(index[row])
-        if np.isnan(number) or (number not in instruments and len(instruments) >= INSTRUMENTS_MAX):
+        if np.isnan(number) or (number not in by_index and len(by_index) >= INSTRUMENTS_MAX):
             continue
         facts = instrument(table, row, names[row])
-        before = instruments.setdefault(number, {})
+        before = by_index.setdefault(number, {})
         before |= {name: value for name, value in facts.items() if value is not None}
-    return tuple(Instrument(**facts) for facts in instruments.values() if facts)  # type: ignore[arg-type]
+    return tuple(Instrument(**one) for one in by_index.values() if one)  # type: ignore[arg-type]
 
 
 def instrument(table: Table, row: int, name: str) -> dict[str, object]:

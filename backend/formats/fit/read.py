@@ -38,7 +38,7 @@ SESSION_FIELDS = {
     5: ProfileField("sport"),
 }
 # Trouble -> its code for programs, and its reason for people. The first that was met of the first
-# kind here is told: lost rows before doubtful ones.
+# kind here is reported: lost rows before doubtful ones.
 TROUBLES: dict[str, tuple[str, str]] = {
     "damaged": ("damaged", "bytes that are no message"),
     "header": ("damaged", "a file header is damaged"),

@@ -49,7 +49,7 @@ class Walk:
 
     def __init__(self, data: bytes, listener: Listener) -> None:
         self._data, self._listener = data, listener
-        # A byte that is no text is kept as one character, so that places can be told.
+        # A byte that is no text is kept as one character, so that places can be reported.
         self._decoder = codecs.getincrementaldecoder("utf-8")("surrogateescape")
         self._text, self._at, self._taken = "", 0, 0
         self._attempts = 0

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 MARKS = ((b"\xef\xbb\xbf", "utf-8-sig"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"))
 # Where two occur alike, a comma is in the numbers.
 SEPARATORS = ";\t,"
-# Lines from whose cells separator and decimal comma are told.
+# Lines whose cells decide separator and decimal comma.
 LOOKED_AT = 40
 COMMA_NUMBER = re.compile(r"\s*[+-]?\d+,\d+\s*")
 POINT_NUMBER = re.compile(r"\s*[+-]?\d+\.\d+\s*")

@@ -1,4 +1,4 @@
-"""Columns of a track to its rides, and what is told of the file."""
+"""Converts the columns of a track to rides, and reports on the file."""
 
 from __future__ import annotations
 

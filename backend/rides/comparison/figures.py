@@ -1,6 +1,6 @@
 """What two stretches of riding come to, each for itself, and by how much they differ.
 
-Rider, motor and battery stand apart and are never added. A figure that cannot be told says why, and
+Rider, motor and battery stand apart and are never added. A missing figure says why, and
 energies say how much time they leave out.
 """
 
@@ -52,7 +52,7 @@ UNITS = {
     "motor_per_rider": "",
     "ascent_m": "m",
 }
-"""The figures in the order in which they are told."""
+"""The figures in the order of the answer."""
 
 
 @described

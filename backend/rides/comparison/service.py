@@ -222,7 +222,7 @@ def stretch(side: Side, rows: RideColumns) -> Stretch:
 
 
 def ways(a: RideColumns, b: RideColumns) -> dict[str, Any]:
-    """Whether both went the same way, or why nobody knows: which of them has no positions."""
+    """Whether both took the same route, or why that is unknown: which has no positions."""
     placed = [all(rows[name] is not None for name in PLACES) for rows in (a, b)]
     if not all(placed):
         return {"same_way": None, "no_way": "neither" if not any(placed) else "ab"[placed[0]]}

@@ -39,7 +39,7 @@ def settings_difference(config_of: ConfigOf, a: Part, b: Part) -> dict[str, Any]
 
 
 def side_of(part: Part, known: bool) -> dict[str, Any]:
-    """Whose configuration it is, or why nobody knows it."""
+    """Whose configuration it is, or why it is unknown."""
     ride, from_s, to_s = part
     spans, why = ride.settings_spans(), None
     in_force = [crc32 for since_s, crc32 in spans if since_s <= from_s]

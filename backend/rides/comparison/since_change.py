@@ -1,7 +1,7 @@
 """Since this change: the rides after a kept configuration beside the rides before it.
 
 Nobody rode the same road twice, and the wind was another; a handful of rides tells little. So the
-figures are told with how many rides they are of, and whether every ride after lies on one side of
+figures are given with how many rides they are of, and whether every ride after lies on one side of
 every ride before. A ride on which it was changed is on neither side.
 """
 
@@ -89,7 +89,7 @@ def rode_on(ride: Ride, crc32: int | None) -> bool:
 
 def figures(rides: Sequence[Ride]) -> dict[str, Any]:
     """What some rides come to together; None where no ride tells it. Rider and motor are never
-    added up, so the share of either is told as their ratio."""
+    added up, so the share of either is given as their ratio."""
     moving_s = total(rides, "moving_s")
     km = sum(distance_km(ride) for ride in rides)
     each = per_km(rides)

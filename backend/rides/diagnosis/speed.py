@@ -61,7 +61,7 @@ def speed_jumps(ride: Evidence, speed_kmh: Values) -> tuple[list[tuple[float, fl
     later = np.searchsorted(at_s, at_s + JUMP_S - 1e-6)
     inside = later < len(at_s)
     first, later = np.flatnonzero(inside), later[inside]
-    # Over rows further apart than a pause of the recording nothing is told.
+    # Rows further apart than a pause of the recording are not judged.
     near = at_s[later] - at_s[first] <= 2.0 * max(JUMP_S, float(np.median(np.diff(at_s, append=0))))
     first, later = first[near], later[near]
     rate = np.abs(ms[later] - ms[first]) / np.maximum(at_s[later] - at_s[first], 1e-9)

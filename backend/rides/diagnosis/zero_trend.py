@@ -30,7 +30,7 @@ SPAN_DAYS_MIN = 14.0
 """Within one calibration: over less, the weather of some days looks like age."""
 RANGE_K_MIN = 5.0
 """The thermometer tells whole kelvins: over less, its steps look like a coefficient."""
-# Nobody knows what becomes of a bike in more than five years.
+# A forecast over more than five years is meaningless.
 HORIZON_DAYS = 1826
 OUTLIER_SIGMAS = 5.0
 # So that rides that agree to the resolution do not call each other apart.
@@ -135,7 +135,7 @@ def trend_of(zeros: Zeros, stretch_now: int) -> Trend | str:
 
 
 def temperature_counts(zeros: Zeros) -> tuple[bool, str | None]:
-    """Whether temperature can be told apart from age, else why not."""
+    """Whether temperature can be separated from age, else why not."""
     with_temperature = zeros.only(zeros.has_temperature)
     if len(with_temperature.days) < 0.5 * len(zeros.days) or not len(with_temperature.days):
         return False, "no_thermometer"

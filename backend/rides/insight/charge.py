@@ -78,7 +78,7 @@ def charge_of(
 
 
 def refusal(used_pct: float, step_pct: float, km: float | None) -> str | None:
-    """Why no range can be told."""
+    """Why no range can be estimated."""
     if km is None:
         return "no_distance"
     if km < DISTANCE_KM_MIN:

@@ -56,7 +56,7 @@ def crank_torque(
     cadence_rpm: Values,
     seconds: Values,
 ) -> CrankTorque | str:
-    """Of rows (n,), missing as NaN; or a code of why it cannot be told: `slow_rows`, `few_turns`.
+    """Of rows (n,), missing as NaN; or a code of why there is none: `slow_rows`, `few_turns`.
 
     motor_nm: what the motor gave, at the crank; None where that is not known.
     """

@@ -112,7 +112,7 @@ def runs_of_heights(
 
 
 def gradient_pct(altitude_m: Values, distances: RowDistances, start_s: Values) -> Values:
-    """The gradient at each row (n,) in percent, NaN where it cannot be told."""
+    """The gradient at each row (n,) in percent, NaN where it is unknown."""
     gradient: Values = np.full(len(altitude_m), np.nan)
     for run in runs_of_heights(altitude_m, distances, start_s):
         gradient[run.rows] = slope_pct(run.height_m)[run.cell_of_row]

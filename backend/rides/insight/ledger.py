@@ -3,7 +3,7 @@
 Energy is what the motor delivered at its shaft; a ride that tells only what was asked of its motor
 has none. A moment belongs to the mode that was selected and, where a table said what the motor is
 asked for, to the at most four rules that fired, in the shares of the law's sets. What no table
-carried (fixed modes, walk assist, a motor that runs out) is told by itself.
+carried (fixed modes, walk assist, a motor that runs out) is listed separately.
 """
 
 from __future__ import annotations

@@ -126,7 +126,7 @@ class RideEffort:
         """The answer as in the API; what a ride has no channel for is None.
 
         threshold_power_w: what the rider can hold for an hour. heart_rate_bpm_max: his greatest.
-        None: nobody told, so there are bands and no zones. Raises NotFound, ObjectDamaged.
+        None: not given, so there are bands and no zones. Raises NotFound, ObjectDamaged.
         """
         ride = columns_of(self._store, ride_id, (*effort.NEEDED, *MEANS, *DISTANCE_CHANNELS))
         seconds = effort.by_seconds(ride.values, ride.start_s, ride.seconds)
@@ -190,7 +190,7 @@ class RidePedalling:
 
 
 def crank_of_ride(ride: RideColumns) -> CrankTorque | str:
-    """The torque over the angle, or why it cannot be told."""
+    """The torque over the angle, or a code of why there is none."""
     angle, torque, cadence = ride[ANGLE], ride[TORQUE], ride[CADENCE]
     if angle is None:
         return "no_angle"

@@ -58,7 +58,7 @@ def rows_after(block: StreamBlock, row_count: int) -> StreamBlock:
 
 LOG = logging.getLogger(__name__)
 
-# So much of a ride is missing before somebody is told: a single damaged frame is no news.
+# So much of a ride is missing before a warning: a single damaged frame needs none.
 TOLD_S = 1.0
 LOST_BY_WORDS = {
     LostBy.MACHINE: "this computer is too busy to read the unit's port in time. End what else runs "

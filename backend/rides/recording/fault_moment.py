@@ -35,7 +35,7 @@ BEFORE_US = 2_000_000
 AFTER_US = 1_000_000
 # Ten minutes of the usual stream: long enough to walk to the screen. A row takes some 60 bytes.
 STREAM_ROWS_MAX = 60_000
-# A start of the unit that brought more rides than this is told by the stream alone.
+# A start of the unit that brought more rides than this is covered by the stream alone.
 RIDES_MAX = 100
 DECIMALS = 4
 # Rows that are further apart tell no moment; also the share of the last second that may lack.
@@ -56,7 +56,7 @@ class FaultMoment:
     source: Literal["ride", "stream"] | None = None
     """What had the samples."""
     missing: Literal["no_frame", "not_recorded"] | None = None
-    """Why there is no sample: nobody knows when the fault came, or nothing was recorded then; null
+    """Why there is no sample: it is unknown when the fault came, or nothing was recorded then; null
     where there are some."""
     ride_id: int | None = None
     ride_t_s: float | None = None
@@ -200,7 +200,7 @@ class FaultMoments:
 
 
 def moment(fault: str, t_us: int, cut: Cut, gear_ratio: float | None, goes_on: bool) -> FaultMoment:
-    """A cut as it is told. goes_on: rows are still to come."""
+    """A cut as the answer has it. goes_on: rows are still to come."""
     rider = cut.values.get(RIDER_TORQUE)
     motor = cut.values.get(MOTOR_TORQUE)
     at_crank = None if motor is None or gear_ratio is None else motor * gear_ratio

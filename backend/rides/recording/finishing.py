@@ -68,7 +68,7 @@ def log_failure(ride_id: int, future: Future[Ride | None]) -> None:
 @dataclass
 class RideClock:
     """By which clock a ride is dated. offset_us: Unix time minus the host's steady time as its
-    start is told by. last_rows_us: that steady time when its newest rows came."""
+    start is given by. last_rows_us: that steady time when its newest rows came."""
 
     offset_us: int
     last_rows_us: int

@@ -3,7 +3,7 @@
 The configuration is the one that was in force at the moment; without it nothing is explained,
 because the steps would be another unit's. The law remembers: averages, ramps and what the market's
 mean allows. So its C runs from the start of the ride's segment, ten minutes at most, and the last
-step is told.
+step is reported.
 """
 
 from __future__ import annotations

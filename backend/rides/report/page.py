@@ -256,7 +256,7 @@ def mode_name(mode: Mapping[str, Any], words: Mapping[str, str]) -> str:
 def span(
     band: Mapping[str, Any], ending: str, unit: str, ends: tuple[str, str] = ("from", "to")
 ) -> str:
-    """From low up to high; an open end is told by a sign."""
+    """From low up to high; an open end has a sign."""
     low, high = (band[f"{end}_{ending}" if ending else end] for end in ends)
     if low is None:
         return f"< {number(high, 0)} {unit}" if high is not None else "…"

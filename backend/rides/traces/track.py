@@ -1,6 +1,6 @@
 """Where a ride went: a few of its rows, enough to draw its track and to lay every axis over time.
 
-Half of the points stand evenly in time, so that a place between two of them can be told by its
+Half of the points stand evenly in time, so that a place between two of them can be derived from its
 moment; the others are where the track bends most (Douglas and Peucker 1973, the farthest point
 first). Between positions further apart than a pause stands one point without a position: no line
 is drawn there.

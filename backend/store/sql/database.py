@@ -51,7 +51,7 @@ PAGES_AT_ONCE = 500
 class Database:
     """One database by URL (`sqlite:///path`, `postgresql+psycopg://...`).
 
-    watch: is told of every write, whether it succeeded. fence: raises StoreError, in every
+    watch: notified of every write, whether it succeeded. fence: raises StoreError, in every
     transaction that writes, once another server has the database; None where nobody can.
     """
 

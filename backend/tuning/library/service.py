@@ -26,7 +26,7 @@ from backend.tuning.library.types import LibraryVersion
 from backend.tuning.types import is_match
 
 FORMAT_START = "spindle-"
-# Own items are told from presets by their id alone.
+# Own items differ from presets by their id alone.
 OWN = re.compile(r"own-([1-9][0-9]{0,17})")
 
 Document = dict[str, Any]

@@ -163,7 +163,7 @@ def is_raised(old: Value, new: Value) -> bool:
 
 
 def raised(row: Parameter, old: Value, new: Value) -> str:
-    """What a person is told about a limit that should go up."""
+    """The message to a person about a limit that should go up."""
     return (
         f"{row.name} should go up from {old} to {new} {row.unit}; this limit goes down freely and "
         "up only with a token."
@@ -171,7 +171,7 @@ def raised(row: Parameter, old: Value, new: Value) -> str:
 
 
 def left(band: Band, row: Parameter, intended: Mapping[str, Value]) -> str:
-    """What a person is told about a value too far from what the factory measured, and what next."""
+    """The message about a value too far from what the factory measured, and what to do next."""
     low, high = band_limits(band, intended)
     within = f"{band.within_pct:g} %" if band.within_pct else f"{band.within:g} {band.unit}"
     return (

@@ -38,7 +38,7 @@ class ClockKeeper:
         return self._estimator.estimate
 
     def begin(self, now_s: float) -> None:
-        """A unit was met: its clock is one nobody knows."""
+        """A unit was connected: its clock is still unknown."""
         self._estimator = ClockEstimator()
         self._requests = 0
         self._offset_us = None
@@ -76,7 +76,7 @@ class ClockKeeper:
         return response.message if isinstance(response.message, TimSyncResponse) else None
 
     def _answered(self, answer: TimSyncResponse | None, now_s: float) -> bool:
-        """Enter an answer that came just now; True when the unit should be told our time."""
+        """Enter an answer that came just now; True when the unit's clock should be set."""
         if answer is None:
             self.end()
             return False

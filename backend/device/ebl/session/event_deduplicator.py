@@ -1,4 +1,4 @@
-"""The unit's events by their numbers: each is told once, and what the line lost comes again.
+"""The unit's events by their numbers: each is delivered once, and what the line lost comes again.
 
 The unit repeats an event that matters until it is acknowledged (SPEC 1.4), so one may come twice,
 or late. A late one tells what happened; how things stand now is asked for.

@@ -26,7 +26,7 @@ class LogReceiver:
     """Receives one log, or the rest of one.
 
     session: 1 to 15, the channel its frames come on; another one for every attempt, so that frames
-    of an attempt before are told apart. now_s: when waiting begins.
+    of an attempt before are told apart from it. now_s: when waiting begins.
     """
 
     def __init__(self, session: int, now_s: float) -> None:
