@@ -3229,7 +3229,7 @@ export interface components {
          * ClosedLoop
          * @description The same road again with other settings: an estimate with its band.
          *
-         *     Peak torque and its steepest rise are not told: they cannot be forecast.
+         *     Peak torque and its steepest rise are not reported: they cannot be forecast.
          */
         ClosedLoop: {
             /**
@@ -4214,7 +4214,7 @@ export interface components {
             source: ("ride" | "stream") | null;
             /**
              * Missing
-             * @description Why there is no sample: nobody knows when the fault came, or nothing was recorded then; null
+             * @description Why there is no sample: it is unknown when the fault came, or nothing was recorded then; null
              *     where there are some.
              */
             missing: ("no_frame" | "not_recorded") | null;
@@ -4363,7 +4363,7 @@ export interface components {
          * Finding
          * @description code: for programs. message: for people. where: the cell, point or field; None for all.
          *
-         *     values: what the message tells, by name, for whoever says it in another language.
+         *     values: the figures of the message, by name, for translations.
          */
         Finding: {
             /**
@@ -4448,7 +4448,7 @@ export interface components {
          * Fit
          * @description covariance: of the coefficients in `names`, from the scatter alone. repeatability_nm:
          *     standard deviation of one capture beyond its own noise. temperature: `both`, `offset` or
-         *     `none`, with `temperature_span_k` that the captures cover; None where none was told.
+         *     `none`, with `temperature_span_k` that the captures cover; None without temperatures.
          */
         Fit: {
             coefficients: components["schemas"]["Coefficients"];
@@ -4867,7 +4867,7 @@ export interface components {
             };
             /**
              * Unsure
-             * @description Begun, and nobody knows whether the unit has it; repeating it finds out.
+             * @description Begun, with unknown outcome in the unit; repeating it finds out.
              */
             unsure: ("write" | "restore") | null;
             /** Clock Set */
@@ -6005,7 +6005,7 @@ export interface components {
             usb_serial_number: string | null;
             /**
              * In Use
-             * @description null where it cannot be told without opening it.
+             * @description null where it is unknown without opening it.
              */
             in_use: boolean | null;
             /**
@@ -6787,7 +6787,7 @@ export interface components {
         };
         /**
          * RideDevice
-         * @description What was true of the bike while the ride was made; null where nobody knows.
+         * @description What was true of the bike while the ride was made; null where unknown.
          */
         RideDevice: {
             /**
@@ -6971,7 +6971,7 @@ export interface components {
         };
         /**
          * RidePlace
-         * @description Where a ride began: the nearest town of GeoNames. Null for what nobody knows.
+         * @description Where a ride began: the nearest town of GeoNames. Null for what is unknown.
          */
         RidePlace: {
             /**
@@ -6986,7 +6986,7 @@ export interface components {
             country: string | null;
             /**
              * Zone
-             * @description Of the IANA database: a local time is told by it.
+             * @description Of the IANA database: local times are in it.
              */
             zone: string | null;
             /**
