@@ -19,8 +19,7 @@ from typing import Any, TypeVar, Unpack
 from pydantic import TypeAdapter
 
 from backend.cli.client import Server, default_key, default_server
-from backend.device.faults import Fault
-from backend.device.live_values import Snapshot
+from backend.device.readings import Fault, Snapshot
 from backend.errors import NoAnswer, RequestRefused
 from backend.rides.models import Ride, RideList, Series
 from backend.server.health import Health

@@ -26,7 +26,7 @@ from backend.core.author import proof_of
 from backend.core.canonical_json import canonical_text, sha256_of
 from backend.errors import Conflict, NotFound, ObjectDamaged
 from backend.store.bikes import bike_of_unit
-from backend.store.named import calibration_key
+from backend.store.discard import calibration_key
 from backend.store.soundness import WORDS, Expected
 from backend.store.sql import tables as t
 from backend.store.store import Store

@@ -14,9 +14,8 @@ from backend.calibration.setup import MassClass, Setup, Side
 from backend.calibration.verification import AmongModel, Change, Past
 from backend.calibration.worked import Worked
 from backend.core.author import AuthorProof
-from backend.core.described import described
+from backend.core.described import RequestBody, described
 from backend.core.parameter_value import ParameterValue
-from backend.core.request_body import RequestBody
 
 Record = Mapping[str, ParameterValue | None]
 JobState = Literal["setup", "capturing", "fitted", "written", "verified", "closed"]

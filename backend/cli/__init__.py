@@ -28,7 +28,7 @@ def run(arguments: Sequence[str] | None) -> int:
     words = list(sys.argv[1:] if arguments is None else arguments)
     if words[:1] in (["sim"], ["scenario"]):
         # The simulator has its own command line; this one only saves people from knowing its name.
-        from backend.cli.simulator import run_simulator
+        from backend.cli.serve import run_simulator
 
         return run_simulator(words)
     options = build_parser().parse_args(words)

@@ -1,8 +1,4 @@
-"""Weeks and months as a rider lives them: from midnight to midnight of a time zone.
-
-A day of a change of clocks has 23 or 25 hours; a midnight that a clock leaps over is the moment of
-the leap.
-"""
+"""Time zones of the IANA database; weeks and months from midnight to midnight of one."""
 
 from __future__ import annotations
 
@@ -10,7 +6,6 @@ from dataclasses import dataclass
 from datetime import UTC, date, datetime, timedelta
 from zoneinfo import ZoneInfo
 
-from backend.core.zones import zone_of
 from backend.errors import FieldError, InvalidRequest
 
 PERIODS = 12
@@ -68,3 +63,11 @@ def midnight_us(day: date, zone: ZoneInfo) -> int:
     """The moment a day begins."""
     local = datetime(day.year, day.month, day.day, tzinfo=zone)
     return int(local.astimezone(UTC).timestamp()) * SECOND_US
+
+
+def zone_of(name: str) -> ZoneInfo | None:
+    """A time zone by its name, None when there is none of that name."""
+    try:
+        return ZoneInfo(name)
+    except (KeyError, ValueError, OSError):
+        return None

@@ -1,6 +1,6 @@
 """What a list shows of a ride beside its figures: a line of its speed, where it was, its bests.
 
-Worked out from the rows once, kept beside the ride, and worked out anew by a newer METHOD.
+Worked out from the rows once, kept beside the ride, and worked out anew by a newer CARD_METHOD.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import numpy as np
 from backend.core.channels import Values
 from backend.core.sphere import great_circle_m
 
-METHOD = 1
+CARD_METHOD = 1
 LINE_POINTS = 64
 # The line is in steps of half a km/h: it is 26 pixels high.
 LINE_STEP_KMH = 0.5

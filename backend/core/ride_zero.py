@@ -1,13 +1,13 @@
 """The zero of a ride: what the torque sensor read while nobody could push.
 
-Worked out from the rows once, kept beside the ride, and worked out anew by a newer METHOD.
+Worked out from the rows once, kept beside the ride, and worked out anew by a newer ZERO_METHOD.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-METHOD = 1
+ZERO_METHOD = 1
 REASONS = (
     "no_torque",
     "no_cadence",

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Generator
 from typing import Any, Protocol, TypeAlias, TypeVar
 
-from backend.device.snapshot import DeviceStatus
-from backend.device.states import DeviceEvent, LinkState
+from backend.device.states import DeviceEvent, DeviceStatus, LinkState
 from backend.errors import LinkError, SpindleError
 
 Result = TypeVar("Result")

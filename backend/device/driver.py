@@ -18,8 +18,7 @@ from typing import Protocol, TypeVar
 
 from backend.device.conversation import Conversation, Operation
 from backend.device.link import Link
-from backend.device.snapshot import DeviceStatus
-from backend.device.states import CONNECTED, DeviceEvent, LinkState
+from backend.device.states import CONNECTED, DeviceEvent, DeviceStatus, LinkState
 from backend.errors import LinkError, NoAnswer, OtherUnit, SpindleError
 
 LOG = logging.getLogger(__name__)

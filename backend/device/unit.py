@@ -24,11 +24,8 @@ from backend.device.configuration import (
 )
 from backend.device.conversation import Operation
 from backend.device.driver import Driver
-from backend.device.faults import Fault
-from backend.device.live_values import Snapshot
-from backend.device.ride_logs import LogSegments, RideLog, RideLogs
-from backend.device.snapshot import DeviceStatus
-from backend.device.wear_counters import WearCounters
+from backend.device.readings import Fault, LogSegments, RideLog, RideLogs, Snapshot, WearCounters
+from backend.device.states import DeviceStatus
 from backend.errors import CapabilityMissing
 
 Result = TypeVar("Result")

@@ -10,8 +10,8 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
+from backend.core.calendar import zone_of
 from backend.core.described import described
-from backend.core.zones import zone_of
 
 ROWS_PER_SECOND_MAX = 1000.0
 

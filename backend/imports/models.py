@@ -7,11 +7,10 @@ from typing import Literal
 
 from pydantic import Field
 
-from backend.core.request_body import RequestBody
+from backend.core.described import Answer, RequestBody
 from backend.formats.questions import TableAnswer, TableColumn
 from backend.imports.records import KnownTable
 from backend.store.uploads import UploadParts
-from backend.web.models import Answer
 
 
 class Upload(Answer):

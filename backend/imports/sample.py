@@ -5,7 +5,7 @@ from __future__ import annotations
 from backend.errors import StoreError
 from backend.formats.blocks import BLOCKS_SUFFIX
 from backend.imports.service import Uploads
-from backend.law.sample_ride import sample_log
+from backend.law.presets import sample_log
 from backend.store import Store
 
 NAME = "Sample ride, simulated"

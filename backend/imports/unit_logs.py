@@ -28,7 +28,7 @@ from typing import BinaryIO
 from backend.core.described import described
 from backend.core.ride import iso_utc
 from backend.core.unit_key import EBL, serial_of
-from backend.device.ride_logs import LogSegments, RideLog, RideLogs
+from backend.device.readings import LogSegments, RideLog, RideLogs
 from backend.device.unit import Unit
 from backend.errors import (
     Conflict,

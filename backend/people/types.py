@@ -6,9 +6,8 @@ from datetime import datetime
 
 from pydantic import AwareDatetime, Field, SecretStr
 
-from backend.core.described import described
+from backend.core.described import RequestBody, described
 from backend.core.person import Permission, Person, RoleName
-from backend.core.request_body import RequestBody
 
 NAME_MAX = 64
 PASSWORD_LENGTH_MIN = 8

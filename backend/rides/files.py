@@ -26,8 +26,7 @@ from backend.core.ride import Ride, RideRows, iso_utc
 from backend.errors import FieldError, InvalidRequest, NotFound, SpindleError
 from backend.formats.export import fit, gpx
 from backend.formats.export.blurred import ShownRide, shown_ride, shown_rows
-from backend.formats.export.csv import csv_chunks
-from backend.formats.export.names import export_names
+from backend.formats.export.csv import csv_chunks, export_names
 from backend.formats.export.seconds import BySecond, by_second
 from backend.store import RideReader, Store
 from backend.store.facts import facts_of

@@ -7,13 +7,12 @@ from typing import Any, Literal
 
 from pydantic import Field
 
+from backend.core.described import Answer, RequestBody
 from backend.core.device_metadata import DeviceSession, Instrument, Lap, Pause
 from backend.core.filled import Filled
 from backend.core.intake import Intake
-from backend.core.request_body import RequestBody
 from backend.core.ride import Gap, RidePlace, RideSummary
 from backend.core.ride_events import RideEvent
-from backend.web.models import Answer
 
 
 class RideChannel(Answer):

@@ -4,7 +4,7 @@ SQLAlchemy and pyarrow."""
 from backend.store.bikes import UnitSighting
 from backend.store.health import WriteFault, WriteWatch
 from backend.store.logbook.book import Home, Logbook
-from backend.store.logbook.cards import CardStore
+from backend.store.logbook.derived import CardStore
 from backend.store.logbook.find import RidePage, Sought
 from backend.store.logbook.totals import Totals
 from backend.store.marks import MarkStore

@@ -19,10 +19,10 @@ from backend.errors import StoreError
 from backend.store.bikes import bike_of_ride
 from backend.store.deletion import FILLED, MADE, join_source
 from backend.store.digest import digest
+from backend.store.discard import named_objects
 from backend.store.facts import Original, StoredRide, stored_ride
 from backend.store.finish import WrittenObject
 from backend.store.logbook.book import set_tags
-from backend.store.named import named_objects
 from backend.store.objects import SIDECAR_SUFFIX, FileObjects, content_key, file_sha256, sidecar_key
 from backend.store.parquet import RideFile, read_facts
 from backend.store.ride_table import finish_row, inserted, row_of

@@ -16,9 +16,9 @@ from sqlalchemy.engine import make_url
 from sqlalchemy.exc import DatabaseError, OperationalError, SQLAlchemyError
 
 from backend.errors import StoreError
+from backend.store.discard import calibration_key
 from backend.store.health import DAMAGED as FILE_DAMAGED
 from backend.store.health import code_of, reason_of
-from backend.store.named import calibration_key
 from backend.store.objects import RIDE_SUFFIX, content_key, sidecar_key
 from backend.store.sql.database import shown, sqlite_path
 from backend.store.sql.sound_rows import NOT_AS_WRITTEN, decoded, parsed

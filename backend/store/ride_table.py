@@ -31,9 +31,8 @@ from backend.core.ride_card import line_kmh
 from backend.core.ride_events import KINDS, RideEvent
 from backend.errors import FieldError, InvalidRequest
 from backend.store.bikes import bike_of_ride
-from backend.store.discard import take_back, with_sidecar
+from backend.store.discard import named_objects, take_back, with_sidecar
 from backend.store.finish import WrittenObject
-from backend.store.named import named_objects
 from backend.store.sql import tables as t
 from backend.store.sql.blobs import channel_list, encode_level
 from backend.store.sql.sound_rows import NOT_AS_WRITTEN, is_sound

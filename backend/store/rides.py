@@ -40,7 +40,7 @@ from backend.store.entries import Entries
 from backend.store.filling import Filling, facts_before, filled_chunks, grown
 from backend.store.finish import RowsInMemory, drafted, write_object
 from backend.store.logbook.book import set_tags
-from backend.store.logbook.cards import note_words
+from backend.store.logbook.derived import note_words
 from backend.store.logbook.find import RidePage, Sought, page_of
 from backend.store.marks import add_events
 from backend.store.objects import Objects

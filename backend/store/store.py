@@ -15,16 +15,15 @@ from types import TracebackType
 from backend.core.ride import Ride, iso_utc
 from backend.errors import StoreError
 from backend.store.deletion import SPOOL, Deletions
+from backend.store.discard import expected_objects, named_keys
 from backend.store.entries import Entries
 from backend.store.health import DISK_FULL, WORDS, code_of
 from backend.store.identity import belonging, new_id, require, write_identity
 from backend.store.inspect_schema import inspect_database
 from backend.store.locks import hold
 from backend.store.logbook.book import Logbook
-from backend.store.logbook.cards import CardStore
-from backend.store.logbook.zeros import ZeroStore
+from backend.store.logbook.derived import CardStore, ZeroStore
 from backend.store.marks import MarkStore
-from backend.store.named import expected_objects, named_keys
 from backend.store.objects import LOST_FOUND, Disk, FileObjects, open_objects
 from backend.store.rides import Orphan, RideStore
 from backend.store.soundness import Soundness

@@ -20,7 +20,7 @@ from urllib.parse import parse_qs
 
 from backend.device.ports import is_character_device, kind_of
 from backend.errors import FieldError, InvalidRequest
-from backend.law.scenarios import live_scenarios
+from backend.law.presets import live_scenarios
 
 # Settings of a simulated unit that are paths.
 FILE_SETTINGS = frozenset({"flash", "unlock_key"})

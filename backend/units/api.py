@@ -6,8 +6,7 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Response, status
 
-from backend.device.live_values import Snapshot
-from backend.device.wear_counters import WearCounters
+from backend.device.readings import Snapshot, WearCounters
 from backend.units.addresses import check_url
 from backend.units.dashboard import Dashboard, Dashboards
 from backend.units.inspection import Inspection

@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from backend.device.faults import Fault
-from backend.device.live_values import Snapshot, last_values
+from backend.device.readings import Fault, Snapshot, WearCounters, last_values
 from backend.device.states import LinkState
-from backend.device.wear_counters import WearCounters
 from backend.errors import CapabilityMissing
 from backend.units.outcome import telling
 from backend.units.service import Devices

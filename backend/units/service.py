@@ -18,9 +18,8 @@ from backend.core.unit_key import serial_of, tells_unit, unit_key
 from backend.device.capability import Capability
 from backend.device.driver import LinkOpener, Listener, other_unit
 from backend.device.families import DEFAULT_FAMILY, FAMILIES, Families
-from backend.device.identity import Identity
 from backend.device.ports import DeviceKind, Opener, Port, family_of, kind_of, list_ports
-from backend.device.states import CONNECTED, DeviceEvent, LinkState, Named, code_of
+from backend.device.states import CONNECTED, DeviceEvent, Identity, LinkState, Named, code_of
 from backend.device.unit import Unit
 from backend.errors import Conflict, InvalidRequest, NameFirst, NoAnswer, NotFound
 from backend.units.addresses import canonical, id_of

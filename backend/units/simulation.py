@@ -8,12 +8,10 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from backend.core.described import described
-from backend.core.request_body import RequestBody
+from backend.core.described import Answer, RequestBody, described
 from backend.errors import Conflict, NoAnswer
-from backend.law.scenarios import live_scenarios
+from backend.law.presets import live_scenarios
 from backend.units.inspection import Inspection
-from backend.web.models import Answer
 
 RiderKind = Literal["off", "constant", "legs"]
 DynoConvention = Literal["physical", "thesis"]

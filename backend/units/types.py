@@ -8,14 +8,12 @@ from typing import Literal, cast
 
 from pydantic import Field
 
-from backend.core.described import described
+from backend.core.described import RequestBody, described
 from backend.core.moments import utc
-from backend.core.request_body import RequestBody
 from backend.device.capability import Capability
-from backend.device.faults import Fault
-from backend.device.identity import Identity
 from backend.device.ports import DeviceKind, Port
-from backend.device.snapshot import DeviceStatus
+from backend.device.readings import Fault
+from backend.device.states import DeviceStatus, Identity
 
 DeviceState = Literal["connecting", "ready", "read_only", "lost", "closed"]
 RollbackCause = Literal["asked", "time_out", "restart", "unknown"]

@@ -15,13 +15,11 @@ import numpy.typing as npt
 
 from backend.device.configuration import ConfigImage
 from backend.device.ebl.operations.config_transaction import read_config, write_config
-from backend.device.ebl.operations.fault_frames import clear_faults, fault_frames
-from backend.device.ebl.operations.live_values import read_values
+from backend.device.ebl.operations.readings import clear_faults, fault_frames, read_values
 from backend.device.ebl.session.operation import Operation
 from backend.device.ebl.session.session import Session
 from backend.device.ebl.session.stream_receiver import StreamPlan
-from backend.device.faults import Fault
-from backend.device.live_values import Snapshot
+from backend.device.readings import Fault, Snapshot
 from backend.device.states import LinkState
 from backend.device.stream import StreamBlock
 from backend.errors import NoAnswer

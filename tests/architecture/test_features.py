@@ -1,6 +1,6 @@
 """Goal: a feature's tables are its own: another feature uses its types and its service.
 
-Method: every import of a `records` module in the backend. The start, the command and the rebuild put
+Method: every import of a `records` module in the backend. Start, command and rebuild put
 features together; they may know all of them.
 """
 

@@ -14,7 +14,7 @@ from functools import cached_property
 from typing import Any
 
 from backend.device.configuration import ConfigImage, TrialStatus
-from backend.device.live_values import Snapshot
+from backend.device.readings import Snapshot
 from backend.device.stream import StreamBlock
 from firmware_protocol._generated import (
     CHANNELS,

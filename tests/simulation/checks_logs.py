@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from backend.device.ride_logs import RideLog
+from backend.device.readings import RideLog
 from backend.formats.blocks import HEADER, MAGIC, PAGE_BYTES, Block, block_at
 from sim_device.firmware.python.unit import LOG_BLOCK_LENGTH
 from tests.simulation.violation import Violation

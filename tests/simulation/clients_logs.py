@@ -14,7 +14,7 @@ from backend.device.ebl.operations.ride_logs import (
     receive_log,
 )
 from backend.device.ebl.session.log_receiver import LogReceiver
-from backend.device.ride_logs import RideLog, RideLogs
+from backend.device.readings import RideLog, RideLogs
 from tests.simulation.violation import Violation
 
 if TYPE_CHECKING:

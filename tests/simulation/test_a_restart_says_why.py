@@ -8,8 +8,7 @@ from __future__ import annotations
 
 import pytest
 
-from backend.device.identity import Identity
-from backend.device.states import LinkState
+from backend.device.states import Identity, LinkState
 from sim_device.lockstep import LockstepUnit
 from tests.fakes.bench import Bench
 from tests.fakes.simulated_unit import LockstepAsUnit

@@ -24,7 +24,7 @@ from backend.device.ebl.operations.ride_logs import (
 )
 from backend.device.ebl.session.log_receiver import LogReceiver
 from backend.device.ebl.session.stream_receiver import StreamPlan
-from backend.device.ride_logs import RideLog
+from backend.device.readings import RideLog
 from backend.device.states import LinkState
 from backend.device.stream import StreamBlock
 from backend.errors import DeviceRefused

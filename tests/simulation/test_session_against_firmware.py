@@ -14,8 +14,7 @@ import pytest
 from backend.device.configuration import ConfigImage
 from backend.device.ebl.operations.config_transaction import read_bank, read_config, write_config
 from backend.device.ebl.operations.config_trial import confirm_config, rollback_config
-from backend.device.ebl.operations.fault_frames import clear_faults, fault_frames
-from backend.device.ebl.operations.live_values import read_values
+from backend.device.ebl.operations.readings import clear_faults, fault_frames, read_values
 from backend.device.ebl.operations.simulation import simulation_get, simulation_set
 from backend.device.ebl.session import handshake
 from backend.device.ebl.session.operation import query

@@ -12,8 +12,8 @@ from backend.device.ebl.operations.config_transaction import (
     read_config,
     write_config,
 )
-from backend.device.ebl.operations.live_values import read_values
-from backend.device.live_values import Snapshot
+from backend.device.ebl.operations.readings import read_values
+from backend.device.readings import Snapshot
 from backend.device.states import LinkState
 from backend.errors import ConfigConflict, NoAnswer, PeerProtocolError
 from firmware_protocol.layout import Value

@@ -1,6 +1,6 @@
 """How long an answer takes beside a stream as full as the unit admits it, in virtual time."""
 
-from backend.device.ebl.operations.live_values import read_values
+from backend.device.ebl.operations.readings import read_values
 from backend.device.ebl.session.operation import Operation, query
 from backend.device.ebl.session.stream_receiver import StreamPlan
 from backend.errors import DeviceRefused

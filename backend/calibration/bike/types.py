@@ -11,8 +11,7 @@ from backend.calibration.bike.balance import Balance
 from backend.calibration.bike.coast_down import Resistance
 from backend.calibration.bike.wheel import Circumference, CutOff, Pulses
 from backend.calibration.types import GravityAt, GravityGiven
-from backend.core.described import described
-from backend.core.request_body import RequestBody
+from backend.core.described import RequestBody, described
 
 RideNumber = Annotated[int, Field(ge=1, le=2**63 - 1)]
 Second = Annotated[float | None, Field(ge=0, le=1e7)]

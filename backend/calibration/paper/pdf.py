@@ -7,8 +7,8 @@ from typing import Any, Literal
 from backend.calibration.capture import Capture
 from backend.calibration.certificate import evaluate, written_document
 from backend.calibration.plain import from_plain
+from backend.core.calendar import zone_of
 from backend.core.canonical_json import sha256_of
-from backend.core.zones import zone_of
 from backend.errors import FieldError, InvalidRequest
 
 Language = Literal["en", "zh"]

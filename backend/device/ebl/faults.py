@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import cast
 
-from backend.device.faults import Fault
-from backend.device.faults import Severity as SeverityWord
-from backend.device.live_values import Snapshot
+from backend.device.readings import Fault, Snapshot
+from backend.device.readings import Severity as SeverityWord
 from firmware_protocol._generated import FAULTS, Severity
 from firmware_protocol.spelling import word_of
 

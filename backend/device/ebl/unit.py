@@ -23,24 +23,26 @@ from backend.device.driver import Driver, LinkOpener, Listener
 from backend.device.ebl.faults import described
 from backend.device.ebl.operations import config_outcome, config_trial, live_set, ride_logs
 from backend.device.ebl.operations.config_transaction import read_bank, read_config, write_config
-from backend.device.ebl.operations.fault_frames import clear_faults, fault_frames, settings_are_lost
-from backend.device.ebl.operations.live_values import CHANNEL_SPECS, read_values
 from backend.device.ebl.operations.parameters import TABLE
+from backend.device.ebl.operations.readings import (
+    CHANNEL_SPECS,
+    clear_faults,
+    fault_frames,
+    read_values,
+    read_wear_counters,
+    settings_are_lost,
+)
 from backend.device.ebl.operations.simulation import simulation_get, simulation_set
 from backend.device.ebl.operations.unlock import Token, token_from
-from backend.device.ebl.operations.wear_counters import read_wear_counters
 from backend.device.ebl.session.log_receiver import LogReceiver
 from backend.device.ebl.session.operation import Operation
 from backend.device.ebl.session.schema import Schemas
 from backend.device.ebl.session.session import Session
 from backend.device.ebl.session.stream_receiver import StreamPlan
 from backend.device.ebl.session.trial_status import trial_status
-from backend.device.faults import Fault
-from backend.device.live_values import Snapshot
-from backend.device.ride_logs import LogSegments, RideLog, RideLogs
+from backend.device.readings import Fault, LogSegments, RideLog, RideLogs, Snapshot, WearCounters
 from backend.device.states import LinkState
 from backend.device.unit import Unit
-from backend.device.wear_counters import WearCounters
 from backend.errors import CapabilityMissing, DeviceRefused, SpindleError
 
 Result = TypeVar("Result")

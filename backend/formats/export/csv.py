@@ -1,4 +1,4 @@
-"""A ride as CSV: ISO time, seconds, then every recorded channel; missing is empty."""
+"""A ride as CSV: ISO time, seconds, then every channel under its name; missing is empty."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 
 from backend.core.channels import ChannelSpec, Values
+from backend.core.energy import DEMANDED, MOTOR_TORQUE, MOTOR_TORQUE_DEMANDED
 from backend.core.ride import Ride, RideRows, iso_utc
-from backend.formats.export.names import export_names
 
 
 def csv_chunks(ride: Ride, rows_of_ride: Iterable[RideRows]) -> Iterator[bytes]:
@@ -37,3 +37,9 @@ def texts(channel: ChannelSpec, values: Values) -> list[str]:
     exact = np.isclose(channel.scale * 10**digits, round(channel.scale * 10**digits))
     places = digits if exact else digits + 3
     return ["" if np.isnan(v) else f"{v:.{places}f}" for v in values.tolist()]
+
+
+def export_names(ride: Ride) -> dict[str, str]:
+    """The name in a file of every recorded channel."""
+    renamed = {MOTOR_TORQUE: MOTOR_TORQUE_DEMANDED} if ride.motor_torque_meaning == DEMANDED else {}
+    return {channel.name: renamed.get(channel.name, channel.name) for channel in ride.channels}

@@ -23,6 +23,7 @@ from typing import Any
 
 import numpy as np
 
+from backend.core.calendar import zone_of
 from backend.core.channels import Values
 from backend.core.device_metadata import (
     PAUSES_MAX,
@@ -33,7 +34,6 @@ from backend.core.device_metadata import (
     Pause,
     within,
 )
-from backend.core.zones import zone_of
 from backend.formats.cells import Growing, as_written, iso_moment, number, step_of, unix_seconds
 from backend.formats.columns import FIT_FIELDS, FieldRule, rides_of_columns
 from backend.formats.mahle.walk import TIME

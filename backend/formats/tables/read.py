@@ -9,8 +9,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from backend.core.calendar import zone_of
 from backend.core.channels import ChannelSpec, Values
-from backend.core.zones import zone_of
 from backend.formats.cells import COLUMNS_MAX, as_written, number, step_of
 from backend.formats.columns import LATITUDE, LONGITUDE, FieldRule, rides_of_columns
 from backend.formats.outcome import (

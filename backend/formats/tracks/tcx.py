@@ -15,8 +15,8 @@ from math import isfinite
 
 import numpy as np
 
+from backend.core.calendar import zone_of
 from backend.core.device_metadata import LAPS_MAX, DeviceMetadata, Instrument, Lap
-from backend.core.zones import zone_of
 from backend.formats.cells import number
 from backend.formats.outcome import NEEDS_MAPPING, Outcome, rejected
 from backend.formats.questions import TableAnswer, TableQuestion

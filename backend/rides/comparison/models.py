@@ -6,13 +6,13 @@ from typing import Literal
 
 from pydantic import Field
 
+from backend.core.described import Answer
 from backend.law.comparison import CellChange
 from backend.rides.comparison.figures import FigureValue
 from backend.rides.comparison.same_way import SameWay
 from backend.rides.insight.models import CrankTorque
 from backend.tuning.models.config import ParameterChange
 from backend.tuning.models.law import FuzzyTable
-from backend.web.models import Answer
 
 NoCrank = Literal["no_angle", "no_torque", "slow_rows", "few_turns"]
 

@@ -7,8 +7,8 @@ from typing import Any, Literal
 
 from pydantic import Field
 
+from backend.core.described import Answer
 from backend.rides.diagnosis.zero_trend import Share
-from backend.web.models import Answer
 
 NoZero = Literal[
     "no_torque",

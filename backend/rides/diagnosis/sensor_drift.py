@@ -17,7 +17,7 @@ import numpy as np
 from backend.core.channels import Values
 from backend.core.revision import Revision
 from backend.core.ride import iso_utc
-from backend.core.ride_zero import METHOD, ZeroOfRide
+from backend.core.ride_zero import ZERO_METHOD, ZeroOfRide
 from backend.rides.comparison.since_change import RevisionsOf
 from backend.rides.diagnosis.zero_trend import (
     ACT_NM,
@@ -93,7 +93,7 @@ class SensorDriftService:
         latest = latest_of(since, left_out)
         return {
             "unit_key": key,
-            "method": METHOD,
+            "method": ZERO_METHOD,
             "watch_nm": WATCH_NM,
             "act_nm": ACT_NM,
             "level": None if latest is None else level_of(latest.zero.zero_nm or 0.0),

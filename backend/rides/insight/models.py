@@ -6,11 +6,11 @@ from typing import Literal
 
 from pydantic import Field
 
+from backend.core.described import Answer
 from backend.rides.diagnosis.finding import DiagnosisCheck, Severity
 from backend.rides.insight.distance import Climb
 from backend.rides.insight.effort import Distribution, LapFigures
 from backend.rides.insight.power_curve import BestMean
-from backend.web.models import Answer
 
 NoRange = Literal["no_charge", "no_distance", "short_way", "charged", "little_used"]
 

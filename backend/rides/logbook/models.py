@@ -7,8 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from backend.core.request_body import RequestBody
-from backend.web.models import Answer
+from backend.core.described import Answer, RequestBody
 
 RideIds = Annotated[
     list[Annotated[int, Field(ge=1, le=2**63 - 1)]], Field(min_length=1, max_length=500)

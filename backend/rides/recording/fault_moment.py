@@ -23,7 +23,7 @@ from backend.core.described import described
 from backend.core.energy import MOTOR_TORQUE, MotorTorqueMeaning, motor_torque_meaning
 from backend.core.moments import utc
 from backend.core.ride import Ride, RideContext
-from backend.device.faults import Fault
+from backend.device.readings import Fault
 from backend.device.states import DeviceEvent
 from backend.device.stream import StreamBlock
 from backend.errors import NotFound

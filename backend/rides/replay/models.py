@@ -7,12 +7,11 @@ from typing import Any, Literal
 
 from pydantic import Field
 
+from backend.core.described import Answer, RequestBody
 from backend.core.parameter_value import Parameters
-from backend.core.request_body import RequestBody
 from backend.law.rider_and_bike import RiderAndBike
 from backend.rides.models import Series
 from backend.tuning.models.law import AssistModes, FivePoints, FuzzyTable, Table
-from backend.web.models import Answer
 
 
 class OtherSettings(RequestBody):

@@ -6,12 +6,11 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from backend.core.described import Answer, RequestBody
 from backend.core.parameter_value import Parameters
-from backend.core.request_body import RequestBody
 from backend.rides.replay.propose import ProposalFigure
 from backend.tuning.library.models import LibraryEntry
 from backend.tuning.models.config import ParameterChange
-from backend.web.models import Answer
 
 Objective = Literal["more_range", "gentler_start", "flatter_at_the_limit"]
 Knob = Literal["ratio", "band", "filter", "torque_rate", "cells"]

@@ -12,7 +12,7 @@ from backend.core.calendar import Period
 from backend.core.ride_tags import clean_tags
 from backend.errors import NotFound
 from backend.store.logbook import totals
-from backend.store.logbook.cards import note_words
+from backend.store.logbook.derived import note_words
 from backend.store.logbook.find import Sought, count_of, ids_of
 from backend.store.objects import Objects
 from backend.store.ride_table import tags_of

@@ -6,15 +6,14 @@ from typing import Any, Literal
 
 from pydantic import Field
 
+from backend.core.described import Answer, RequestBody
 from backend.core.parameter_value import ParameterValue
-from backend.core.request_body import RequestBody
 from backend.law.comparison import TableComparison
 from backend.law.feel import Feel
 from backend.law.fis.evaluation import Deviation
 from backend.tuning.library.service import LibraryRow
 from backend.tuning.models.config import ParameterChange
 from backend.tuning.models.law import FuzzyTable, Table
-from backend.web.models import Answer
 
 PARAMETERS_MAX = 400
 

@@ -7,10 +7,9 @@ from typing import Literal
 
 from pydantic import Field
 
+from backend.core.described import Answer, RequestBody
 from backend.core.parameter_value import TOKEN, TOKEN_PATTERN, Parameters, ParameterValue
-from backend.core.request_body import RequestBody
 from backend.device.configuration import Free
-from backend.web.models import Answer
 
 CONFIRM_S_MAX = 255
 CONFIRM_S = (

@@ -6,9 +6,8 @@ from typing import Annotated
 
 from pydantic import Field
 
+from backend.core.described import Answer, RequestBody
 from backend.core.parameter_value import Parameters
-from backend.core.request_body import RequestBody
-from backend.web.models import Answer
 
 Speed = Annotated[float, Field(ge=0.0, le=100.0)]
 

@@ -6,9 +6,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
+from backend.core.described import Answer, RequestBody
 from backend.core.fuzzy_table import Label
-from backend.core.request_body import RequestBody
-from backend.web.models import Answer
 
 
 def in_lower_case(value: Any) -> Any:

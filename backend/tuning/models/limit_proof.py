@@ -7,11 +7,10 @@ from typing import Any, Literal
 
 from pydantic import Field
 
+from backend.core.described import Answer, RequestBody
 from backend.core.parameter_value import Parameters
-from backend.core.request_body import RequestBody
 from backend.law.limit_proof import Cell
 from backend.tuning.models.law import AssistModes, FuzzyTable, UnitLimits
-from backend.web.models import Answer
 
 CHANGES = {"fuzzy_table", "second_table", "assist_modes", "limits"}
 

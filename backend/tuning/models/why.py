@@ -6,11 +6,10 @@ from typing import Any, Literal
 
 from pydantic import Field
 
+from backend.core.described import Answer, RequestBody
 from backend.core.fuzzy_table import Label
-from backend.core.request_body import RequestBody
 from backend.law.why import FiredRule, WhyStep
 from backend.tuning.models.law import AssistModes, FuzzyTable, Law, Table, UnitLimits
-from backend.web.models import Answer
 
 CHANGES = {"fuzzy_table", "second_table", "assist_modes", "limits"}
 

@@ -16,10 +16,14 @@ import numpy as np
 
 from backend.core.channels import ChannelSpec
 from backend.device.conversation import OnError, OnResult, Operation, Result
-from backend.device.identity import Identity
-from backend.device.snapshot import DeviceStatus
-from backend.device.states import DeviceEvent, LinkState, StateChanged
-from backend.device.statistics import LinkStatistics
+from backend.device.states import (
+    DeviceEvent,
+    DeviceStatus,
+    Identity,
+    LinkState,
+    LinkStatistics,
+    StateChanged,
+)
 from backend.device.stream import StreamBlock, StreamStarted
 from backend.errors import LinkError, NoAnswer, SpindleError
 

@@ -12,7 +12,7 @@ from backend.device.capability import Capability
 from backend.device.configuration import Config, ConfigImage, ParameterRow, ParameterTable, Value
 from backend.device.conversation import Operation
 from backend.device.driver import Driver, LinkOpener, Listener
-from backend.device.live_values import Snapshot, named_values
+from backend.device.readings import Snapshot, named_values
 from backend.device.unit import Unit
 from backend.errors import ConfigConflict, DeviceRefused, FieldError, NoAnswer, PeerProtocolError
 from tests.fakes.tiny.conversation import CHANNELS, TinyConversation, read_values

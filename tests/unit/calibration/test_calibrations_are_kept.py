@@ -17,7 +17,7 @@ from backend.calibration.records import CalibrationStore
 from backend.errors import Conflict, NotFound, ObjectDamaged, StoreError
 from backend.rebuild import rebuild_store
 from backend.store import Store, backup_of, open_store
-from backend.store.named import calibration_key
+from backend.store.discard import calibration_key
 from backend.store.objects import Disk
 from backend.store.upkeep.check import check_store
 from backend.units.records import UnitStore

@@ -18,7 +18,7 @@ from backend.device.ebl.operations.config_transaction import (
     write_config,
 )
 from backend.device.ebl.session.unit_state import UnitState
-from backend.device.statistics import LinkStatistics
+from backend.device.states import LinkStatistics
 from backend.errors import (
     AccessDenied,
     ConfigConflict,

@@ -10,8 +10,7 @@ import random
 import pytest
 
 from backend.device.ebl.session.event_deduplicator import Arrival, EventDeduplicator
-from backend.device.states import UnitEvent
-from backend.device.statistics import LinkStatistics
+from backend.device.states import LinkStatistics, UnitEvent
 from firmware_protocol._generated import BootEvent, FaultClearedEvent, FaultSetEvent
 from firmware_protocol.codec import Event
 from tests.fakes.bench_unit import BenchUnit

@@ -19,10 +19,10 @@ import pytest
 
 from backend.device.ebl.faults import NAME_OF_BIT, fault_names
 from backend.device.ebl.operations.config_transaction import read_config, write_config
-from backend.device.ebl.operations.fault_frames import fault_frames
+from backend.device.ebl.operations.readings import fault_frames
 from backend.device.ebl.session.operation import Question
 from backend.device.ebl.session.stream_receiver import StreamPlan
-from backend.device.faults import Fault
+from backend.device.readings import Fault
 from backend.device.states import LinkState
 from backend.store.schemas import SCHEMAS_MAX, SchemaFiles
 from firmware_protocol._generated import (

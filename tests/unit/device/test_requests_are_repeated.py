@@ -11,7 +11,7 @@ import pytest
 from backend.device.ebl.operations.config_transaction import read_config, write_config
 from backend.device.ebl.session.operation import Operation, Question, query, query_all
 from backend.device.ebl.session.requests import RequestTable
-from backend.device.statistics import LinkStatistics
+from backend.device.states import LinkStatistics
 from backend.errors import DeviceRefused, NoAnswer
 from firmware_protocol._generated import (
     CfgInfoRequest,

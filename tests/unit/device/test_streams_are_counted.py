@@ -14,8 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from backend.device.ebl.session.stream_receiver import StreamPlan, StreamReceiver
-from backend.device.states import UnitEvent
-from backend.device.statistics import LinkStatistics
+from backend.device.states import LinkStatistics, UnitEvent
 from backend.device.stream import LostBy, StreamStarted, unwrap_us
 from firmware_protocol._generated import (
     CHANNELS,

@@ -19,7 +19,7 @@ from backend.imports.service import Uploads, UploadSettings
 from backend.rebuild import rebuild_store
 from backend.rides.service import Rides
 from backend.store import Store, open_store
-from backend.store.named import named_keys
+from backend.store.discard import named_keys
 from tests.fakes.fit_file import START_S, commute, fit_file
 from tests.fakes.uploading import read_here
 from tests.fakes.zip_file import zipped

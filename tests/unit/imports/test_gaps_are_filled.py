@@ -24,7 +24,7 @@ from backend.formats import ImportedRide, Outcome
 from backend.imports.service import Uploads
 from backend.rides.recording.recorder import Recorder, RecordSettings
 from backend.store import Store, open_store, rides
-from backend.store.named import named_keys
+from backend.store.discard import named_keys
 from backend.store.objects import Disk
 from tests.fakes.failing_disk import FailingDisk
 

@@ -17,8 +17,7 @@ import pytest
 
 from backend.core.channels import MISSING_INT16, ChannelSpec
 from backend.core.ride import RideContext
-from backend.device.faults import Fault
-from backend.device.live_values import Snapshot
+from backend.device.readings import Fault, Snapshot
 from backend.device.stream import StreamBlock
 from backend.errors import NotFound
 from backend.rides.recording.fault_moment import FaultMoments, RecentRows

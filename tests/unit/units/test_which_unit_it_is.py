@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 
 from backend.device.ebl.unit import EblUnit
-from backend.device.snapshot import DeviceStatus
+from backend.device.states import DeviceStatus
 from backend.errors import Conflict, NameFirst
 from backend.imports.service import Uploads
 from backend.imports.unit_logs import Collect, word_of

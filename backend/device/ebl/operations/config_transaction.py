@@ -12,8 +12,8 @@ import zlib
 from collections.abc import Mapping
 
 from backend.device.configuration import ConfigImage, Value
+from backend.device.ebl.operations.parameters import unit_violations
 from backend.device.ebl.operations.unlock import access_refused, show_token
-from backend.device.ebl.operations.violations import unit_violations
 from backend.device.ebl.session.operation import (
     Operation,
     OrphanLeft,

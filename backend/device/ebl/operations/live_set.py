@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from backend.device.configuration import LiveState, Value
 from backend.device.ebl.operations.config_transaction import MESSAGE_OVERHEAD_BYTES, read_config
-from backend.device.ebl.operations.violations import unit_violations
+from backend.device.ebl.operations.parameters import unit_violations
 from backend.device.ebl.session.operation import Operation, attempt, query, query_all
 from backend.device.ebl.session.refusals import refused
 from backend.errors import AccessDenied, FieldError, LimitViolation, NoAnswer, PeerProtocolError

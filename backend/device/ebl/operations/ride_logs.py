@@ -6,7 +6,7 @@ import struct
 
 from backend.device.ebl.session.log_receiver import LogReceiver
 from backend.device.ebl.session.operation import Operation, attempt, expect, query
-from backend.device.ride_logs import RideLog, RideLogs
+from backend.device.readings import RideLog, RideLogs
 from backend.errors import DeviceRefused, NoAnswer, PeerProtocolError, SpindleError
 from firmware_protocol._generated import (
     LogCloseRequest,

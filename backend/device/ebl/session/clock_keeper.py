@@ -9,7 +9,7 @@ from backend.core.moments import set_by_us
 from backend.device.ebl.session.clock_sync import ClockEstimate, ClockEstimator, ClockSample
 from backend.device.ebl.session.operation import Operation, attempt
 from backend.device.ebl.session.runner import OperationRunner
-from backend.device.statistics import LinkStatistics
+from backend.device.states import LinkStatistics
 from firmware_protocol._generated import TimSetRequest, TimSyncRequest, TimSyncResponse
 
 # The first few tell the offset; the later ones, over minutes, the skew.

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections import deque
 from enum import Enum, auto
 
-from backend.device.statistics import LinkStatistics
+from backend.device.states import LinkStatistics
 from firmware_protocol._generated import (
     BootEvent,
     EvtAckRequest,

@@ -16,7 +16,7 @@ from backend.device.ebl.session.operation import Operation, attempt, expect, que
 from backend.device.ebl.session.refusals import refused
 from backend.device.ebl.session.schema import Schemas, differences, schema_of_unit, shared_channels
 from backend.device.ebl.session.trial_status import trial_status
-from backend.device.identity import Identity
+from backend.device.states import Identity
 from backend.errors import DeviceRefused, NoAnswer, PeerProtocolError
 from firmware_protocol._generated import (
     CHANNELS,

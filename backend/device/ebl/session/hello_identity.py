@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from backend.device.identity import Identity
+from backend.device.states import Identity
 from firmware_protocol._generated import DeviceClass, HelloResponse
 
 SIMULATED_BIT = 0x80

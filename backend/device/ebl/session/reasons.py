@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from backend.device.ebl.session.handshake import VersionRefused, version_text
-from backend.device.identity import Identity
-from backend.device.states import CodedReason
+from backend.device.states import CodedReason, Identity
 from backend.errors import LinkError, NoAnswer
 
 

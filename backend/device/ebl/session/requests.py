@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from backend.device.ebl.session.operation import Question
-from backend.device.statistics import LinkStatistics
+from backend.device.states import LinkStatistics
 from backend.errors import LinkError, NoAnswer, SpindleError
 from firmware_protocol._generated import Status
 from firmware_protocol.codec import Request, Response, encode

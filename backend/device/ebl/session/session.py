@@ -54,9 +54,7 @@ from backend.device.ebl.session.stream_keeper import StreamKeeper
 from backend.device.ebl.session.stream_receiver import StreamPlan
 from backend.device.ebl.session.subscription import Subscription
 from backend.device.ebl.session.unit_state import UnitState
-from backend.device.snapshot import DeviceStatus
-from backend.device.states import DeviceEvent, LinkState, StateChanged
-from backend.device.statistics import LinkStatistics
+from backend.device.states import DeviceEvent, DeviceStatus, LinkState, LinkStatistics, StateChanged
 from backend.device.stream import StreamBlock, StreamStarted
 from backend.errors import LinkError, NoAnswer, SpindleError
 from firmware_protocol._generated import (

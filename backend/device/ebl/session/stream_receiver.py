@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from backend.core.channels import ChannelSpec
 from backend.device.ebl.session.frame_counts import FrameCounts
-from backend.device.statistics import LinkStatistics
+from backend.device.states import LinkStatistics
 from backend.device.stream import LostBy, StreamBlock, StreamStarted, unwrap_us
 from firmware_protocol._generated import CHANNELS, StreamCountsEvent, StrSubscribeResponse
 from firmware_protocol.codec import Stream

@@ -13,7 +13,7 @@ from backend.device.ebl.session.stream_receiver import (
     StreamPlan,
     StreamReceiver,
 )
-from backend.device.statistics import LinkStatistics
+from backend.device.states import LinkStatistics
 from backend.device.stream import StreamBlock, StreamStarted
 from backend.errors import NoAnswer
 from firmware_protocol._generated import (

@@ -5,8 +5,7 @@ from __future__ import annotations
 from backend.device.configuration import TrialStatus
 from backend.device.ebl.faults import fault_names
 from backend.device.ebl.session.handshake import Handshake
-from backend.device.states import UnitEvent
-from backend.device.statistics import LinkStatistics
+from backend.device.states import LinkStatistics, UnitEvent
 from firmware_protocol._generated import (
     BootEvent,
     ConfigCommittedEvent,
