@@ -126,7 +126,7 @@ def combine(
     data = Path(chosen.get("data") or default_data_folder(environment)).expanduser().resolve()
     values: dict[str, Any] = {
         "host": str(chosen.get("host", "127.0.0.1")),
-        "port": _whole(chosen.get("port", 8750), "port", 0, 65535, errors),
+        "port": _integer(chosen.get("port", 8750), "port", 0, 65535, errors),
         "data": data,
         "device": _units(chosen.get("device", "sim"), errors),
         "db": str(chosen.get("db", f"sqlite:///{(data / 'spindle.db').as_posix()}")),
@@ -136,7 +136,7 @@ def combine(
         "auth": _one_of(chosen.get("auth", "auto"), "auth", AUTHS, errors),
         "allowed_hosts": _names(chosen.get("allowed_hosts", "")),
         "root_path": _root_path(str(chosen.get("root_path", "")), errors),
-        "upload_bytes_max": _whole(
+        "upload_bytes_max": _integer(
             chosen.get("upload_bytes_max", 256 * 1024 * 1024),
             "upload_bytes_max",
             1024,
@@ -219,7 +219,7 @@ def _root_path(value: str, errors: list[FieldError]) -> str:
     return path
 
 
-def _whole(value: Any, name: str, low: int, high: int, errors: list[FieldError]) -> int:
+def _integer(value: Any, name: str, low: int, high: int, errors: list[FieldError]) -> int:
     try:
         number = int(str(value))
     except ValueError:

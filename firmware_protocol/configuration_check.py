@@ -35,7 +35,7 @@ def faults_of(file: ConfigurationFile) -> list[FileFault]:
         if row is not None and entry.unit != row.unit:
             message = f"{name} is in {row.unit!r}, not in {entry.unit!r}."
             found.append(FileFault(f"parameters.{name}.unit", "other_unit", message))
-    for wrong in violations(file.values, whole=False):
+    for wrong in violations(file.values, complete=False):
         field = f"parameters.{wrong.field}.value"
         found.append(FileFault(field, word_of(wrong.code), wrong.message))
     return found

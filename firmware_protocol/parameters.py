@@ -106,17 +106,17 @@ def set_items(changes: Mapping[str, Value], length_max: int = ITEMS_LENGTH_MAX) 
     return [chunk for chunk in chunks if chunk]
 
 
-def violations(config: Mapping[str, Value], whole: bool = True) -> list[ParameterViolation]:
+def violations(config: Mapping[str, Value], complete: bool = True) -> list[ParameterViolation]:
     """Everything that is wrong with a configuration; empty when the unit will take it.
 
     In the order of the unit's own check: parameters by id, at most one violation for an element,
-    then the rules between parameters. whole: False for some parameters only, of which none is
+    then the rules between parameters. complete: False for some parameters only, of which none is
     missed.
     """
     found = [unknown_parameter(name) for name in config if name not in PARAMETER_BY_NAME]
     for row in PARAMETERS:
         if row.name not in config:
-            if not whole:
+            if not complete:
                 continue
             text = f"{row.name} is missing from the configuration."
             found.append(ParameterViolation(row.name, 0, "MISSING_PARAMETER", text))

@@ -133,9 +133,9 @@ def _unlock_key(name: str) -> bytes:
         raise argparse.ArgumentTypeError(f"{name} is no public key in hex: {error}") from None
 
 
-def _live_scenario(wanted: str) -> ScenarioFile | None:
+def _live_scenario(name: str) -> ScenarioFile | None:
     try:
-        return None if wanted == NO_SCENARIO else load_live(wanted)
+        return None if name == NO_SCENARIO else load_live(name)
     except ScenarioError as error:
         raise argparse.ArgumentTypeError(str(error)) from None
 

@@ -78,9 +78,9 @@ def parse_changes(text: str, own_scenarios: Collection[str] = ()) -> Changes:
     return changes
 
 
-def pack(told: dict[str, Any]) -> bytes:
+def pack(settings: dict[str, Any]) -> bytes:
     """The answer's text: JSON, and where that would not fit a frame, deflated (zlib)."""
-    text = json.dumps(told, separators=(",", ":")).encode()
+    text = json.dumps(settings, separators=(",", ":")).encode()
     return text if len(text) <= PLAIN_BYTES_MAX else zlib.compress(text)
 
 

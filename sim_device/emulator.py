@@ -121,7 +121,7 @@ class Emulator:
             try:
                 self.bench, _ = listener.accept()
             except TimeoutError:
-                raise EmulatorError(f"QEMU did not start: {self._said()}") from None
+                raise EmulatorError(f"QEMU did not start: {self._output()}") from None
         self.bench.settimeout(None)
         self.host_address = f"{tcp[0]}:{tcp[1]}" if tcp is not None else self._pty_name()
         self._far = -1
@@ -170,7 +170,7 @@ class Emulator:
                 return found.group(1)
         raise EmulatorError(f"QEMU named no pseudo-terminal: {said[-COMPLAINT_CHARACTERS_MAX:]}")
 
-    def _said(self) -> str:
+    def _output(self) -> str:
         self._process.kill()
         out, _ = self._process.communicate()
         self._folder.cleanup()

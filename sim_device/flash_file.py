@@ -54,7 +54,7 @@ class FlashFile:
         """
         if image == self.written:
             return
-        with _told(self.path):
+        with _errors_named(self.path):
             _replace(self.path, image)
         self.written = image
 
@@ -88,7 +88,7 @@ class LogFile:
             return
         changes = unit.log_changes
         address, data = unit.log_changed()
-        with _told(self.path):
+        with _errors_named(self.path):
             if not self.is_there:
                 _replace(self.path, b"\xff" * LOG_LENGTH)
                 self.is_there = True
@@ -136,7 +136,7 @@ def _image_of(path: Path, length: int, what: str) -> bytes | None:
 
 
 @contextmanager
-def _told(path: Path) -> Iterator[None]:
+def _errors_named(path: Path) -> Iterator[None]:
     """Says which flash an error of the disk is about: the system's own words name no file."""
     try:
         yield

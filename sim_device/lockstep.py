@@ -247,7 +247,7 @@ class LockstepUnit:
             "ambient_degc": self._bike.get("sensor.ambient_degc", 20.0),
             "grip": self._bike.get("road.grip", 0.0),
             "faults": phase.faults,
-            "workbench": self._workbench.told() if self._workbench else None,
+            "workbench": self._workbench.as_controls() if self._workbench else None,
             "rotor_link": {
                 "words_good": seen["words_good"],
                 "words_bad": seen["words_bad"],

@@ -240,29 +240,29 @@ def load_file(path: Path) -> ScenarioFile:
     return scenario
 
 
-def load_live(wanted: str) -> ScenarioFile:
+def load_live(name: str) -> ScenarioFile:
     """A scenario to be ridden: one that comes with Spindle, or a TOML file by its path.
 
     Raises ScenarioError, also for a file that cannot be read.
     """
-    if wanted.endswith(FILE_ENDING):
-        if len(Path(wanted).name) > FILE_NAME_CHARACTERS_MAX:
+    if name.endswith(FILE_ENDING):
+        if len(Path(name).name) > FILE_NAME_CHARACTERS_MAX:
             raise ScenarioError(
-                f"scenario {wanted}: its name has more than {FILE_NAME_CHARACTERS_MAX} characters"
+                f"scenario {name}: its name has more than {FILE_NAME_CHARACTERS_MAX} characters"
             )
         try:
-            return load_file(Path(wanted))
+            return load_file(Path(name))
         except OSError as error:
-            raise ScenarioError(f"scenario {wanted} cannot be read: {error.strerror}") from error
-    if wanted not in names():
+            raise ScenarioError(f"scenario {name} cannot be read: {error.strerror}") from error
+    if name not in names():
         known = ", ".join(name for name in names() if load(name).live)
         raise ScenarioError(
-            f"there is no scenario {wanted!r}; there are: {known}; or give the path of a file "
+            f"there is no scenario {name!r}; there are: {known}; or give the path of a file "
             f"of your own, *{FILE_ENDING}"
         )
-    scenario = load(wanted)
+    scenario = load(name)
     if not scenario.live:
-        raise ScenarioError(f"scenario {wanted!r} is measured, not ridden: use `scenario run`")
+        raise ScenarioError(f"scenario {name!r} is measured, not ridden: use `scenario run`")
     return scenario
 
 

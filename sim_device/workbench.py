@@ -31,7 +31,7 @@ class Workbench:
     arm_limit_m: float = 3e-4
     angle_limit_deg: float = 0.5
 
-    def told(self) -> dict[str, Any]:
+    def as_controls(self) -> dict[str, Any]:
         """As the controls have it."""
         return asdict(self)
 

@@ -41,7 +41,7 @@ def ebl_key(serial_number: str | None) -> str | None:
     return None if serial_number is None else serial_key(EBL, serial_number)
 
 
-def tells_unit(key: str) -> bool:
+def identifies_unit(key: str) -> bool:
     """Whether a key names one unit, and not whatever is behind a url."""
     return not key.partition(":")[2].startswith("url:")
 

@@ -32,7 +32,7 @@ AGE_MAX_US = 30 * 24 * HOUR_US
 # Of one person: the oldest goes first. Protects the table.
 SESSIONS_MAX = 50
 # A use is noted so seldom that a page that asks twice a second does not keep the disk busy.
-USE_NOTED_EVERY_US = 60_000_000
+USE_RECORDED_EVERY_US = 60_000_000
 
 
 class AccountStore:
@@ -183,7 +183,7 @@ class SessionStore:
         row = self._database.read(lambda connection: connection.execute(query).first())
         if row is None:
             return None
-        if now_us - row.used_us > USE_NOTED_EVERY_US:
+        if now_us - row.used_us > USE_RECORDED_EVERY_US:
             use = update(t.session).where(t.session.c.id == row.session_id)
             # Nobody waits for it, and a full disk signs nobody out.
             self._database.submit(lambda c: c.execute(use.values(used_us=now_us)).rowcount)
@@ -291,7 +291,7 @@ class KeyStore:
 
     def note_use(self, key: ApiKey, now_us: int) -> None:
         """That a key was used; nobody waits for it."""
-        if key.used_at is None or utc(now_us - USE_NOTED_EVERY_US) > key.used_at:
+        if key.used_at is None or utc(now_us - USE_RECORDED_EVERY_US) > key.used_at:
             use = update(t.api_key).where(t.api_key.c.id == key.id).values(used_us=now_us)
             self._database.submit(lambda connection: connection.execute(use).rowcount)
 

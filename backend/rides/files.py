@@ -84,7 +84,7 @@ def as_fit(store: Store, ride: Ride) -> Export:
         raise InvalidRequest(
             f"Ride {ride.id} has no sample yet that a FIT file could hold.", code="no_rows"
         )
-    return whole(f"{stem(ride)}.fit", "application/vnd.ant.fit", fit.fit_file(ride, ridden))
+    return as_file(f"{stem(ride)}.fit", "application/vnd.ant.fit", fit.fit_file(ride, ridden))
 
 
 def as_gpx(store: Store, ride: Ride) -> Export:
@@ -94,7 +94,7 @@ def as_gpx(store: Store, ride: Ride) -> Export:
         raise InvalidRequest(
             f"Ride {ride.id} has no position, and a GPX file is a track.", code="no_positions"
         )
-    return whole(f"{stem(ride)}.gpx", "application/gpx+xml", gpx.gpx_file(ride, ridden))
+    return as_file(f"{stem(ride)}.gpx", "application/gpx+xml", gpx.gpx_file(ride, ridden))
 
 
 def as_original(store: Store, ride: Ride) -> Export:
@@ -133,7 +133,7 @@ def second_by_second(store: Store, ride: Ride, channels: tuple[str, ...]) -> ByS
     return by_second(ride.started_us, times_us, reader.values(channels))
 
 
-def whole(file_name: str, media_type: str, data: bytes) -> Export:
+def as_file(file_name: str, media_type: str, data: bytes) -> Export:
     """A file that is made at once."""
     return Export(file_name, media_type, iter([data]), len(data))
 
@@ -178,8 +178,8 @@ def share(store: Store, ride: Ride, file_format: str, blur_m: float) -> Export:
         return Export(name, "text/csv; charset=utf-8", csv_chunks(shown.ride, chunks))
     ridden = by_second(shown.ride.started_us, shown.rows.times_us, shown.values)
     if file_format == "gpx":
-        return whole(name, "application/gpx+xml", gpx.gpx_file(shown.ride, ridden))
-    return whole(name, "application/vnd.ant.fit", fit.fit_file(shown.ride, ridden))
+        return as_file(name, "application/gpx+xml", gpx.gpx_file(shown.ride, ridden))
+    return as_file(name, "application/vnd.ant.fit", fit.fit_file(shown.ride, ridden))
 
 
 def what_is_shown(store: Store, ride: Ride, blur_m: float) -> ShownRide:

@@ -14,7 +14,7 @@ from sqlalchemy import Connection, Table, insert, select
 from sqlalchemy.dialects import postgresql, sqlite
 
 from backend.core.ride import RideContext
-from backend.core.unit_key import bike_name, tells_unit
+from backend.core.unit_key import bike_name, identifies_unit
 from backend.store.sql import tables as t
 
 
@@ -62,7 +62,7 @@ def bike_of_unit(
         "created_us": now_us,
         "last_seen_us": now_us,
     }
-    if is_inserted(connection, t.unit, values) and tells_unit(key):
+    if is_inserted(connection, t.unit, values) and identifies_unit(key):
         name = bike_name(key, unit.name, unit.model)
         made = insert(t.bike).values(name=name, created_us=now_us).returning(t.bike.c.id)
         bike_id = int(connection.execute(made).scalar_one())

@@ -14,7 +14,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from backend.core.channels import ChannelSpec
-from backend.core.unit_key import serial_of, tells_unit, unit_key
+from backend.core.unit_key import identifies_unit, serial_of, unit_key
 from backend.device.capability import Capability
 from backend.device.driver import LinkOpener, Listener, other_unit
 from backend.device.families import DEFAULT_FAMILY, FAMILIES, Families
@@ -269,7 +269,7 @@ class Devices:
         OtherUnit, and NameFirst for a unit without a serial number and without a name.
         """
         key, unit = self.pinned(device_id)
-        if not tells_unit(key):
+        if not identifies_unit(key):
             raise NameFirst(
                 "This unit has no serial number, so nobody can tell it from the next one on this "
                 "connection. Give it a name first: connect it again with the name you call it by."

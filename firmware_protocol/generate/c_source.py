@@ -128,7 +128,9 @@ def messages_source(registry: Registry) -> str:
     """The text of ebl_messages.c."""
     lines = [FIRST_LINE, '#include "ebl_registry.h"', "", '#include "ebl_layout.h" // EBL_U8', ""]
     for name, layout in layouts(registry):
-        rows = ", ".join([f"{layout.length}", f"{layout.whole}", *_runs(name, layout), "EBL_END"])
+        rows = ", ".join(
+            [f"{layout.length}", f"{layout.full_length}", *_runs(name, layout), "EBL_END"]
+        )
         lines += [f"const uint8_t {name}_layout[] = {{{rows}}};"]
     return "\n".join(lines) + "\n"
 

@@ -36,7 +36,7 @@ class Layout:
         return sum(SIZES[f.type] * f.count for f in self.members if f.type != "bytes")
 
     @property
-    def whole(self) -> int:
+    def full_length(self) -> int:
         """Bytes of the fixed part as this version sends it."""
         return sum(SIZES[f.type] * f.count for f in self.fields if f.type != "bytes")
 
@@ -222,7 +222,7 @@ def _check_lengths(registry: Registry) -> None:
     named = [(row.name, row.request) for row in registry.messages]
     named += [(row.name, row.response) for row in registry.messages]
     for name, layout in [*named, *registry.events]:
-        if layout.whole > room:
+        if layout.full_length > room:
             raise BadRegistry(f"{name}: its fields are more than the {room} bytes of any frame")
 
 

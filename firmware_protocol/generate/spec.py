@@ -43,8 +43,8 @@ def _fields(layout: Layout) -> str:
     texts = [f"{f.name} {f.type}" + (f"[{f.count}]" if f.count > 1 else "") for f in layout.fields]
     if not texts:
         return "nothing"
-    least = f"{layout.length} or " if layout.whole != layout.length else ""
-    return f"{', '.join(texts)} ({least}{layout.whole}{' B +' if layout.has_tail else ' B'})"
+    least = f"{layout.length} or " if layout.full_length != layout.length else ""
+    return f"{', '.join(texts)} ({least}{layout.full_length}{' B +' if layout.has_tail else ' B'})"
 
 
 def _messages(registry: Registry) -> list[str]:

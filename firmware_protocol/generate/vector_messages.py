@@ -34,7 +34,7 @@ def _cases(
 ) -> list[dict[str, Any]]:
     """What is sent; where a number has a high half, first what a peer that has none of it sends."""
     found = [_case(name, kind, Layout(layout.members), head, size, room)]
-    if layout.whole != layout.length:
+    if layout.full_length != layout.length:
         found.append(_case(name, kind, layout, head, size, room))
         found[-1]["name"] += ", both halves"
     return found
@@ -47,7 +47,7 @@ def _case(
     payload = b""
     for position, field in enumerate(layout.fields):
         if field.type == "bytes":
-            length = (0, 5, room - (len(head) - 4) - layout.whole)[SIZES[size]]
+            length = (0, 5, room - (len(head) - 4) - layout.full_length)[SIZES[size]]
             data = bytes((index * 7 + 1) % 256 for index in range(length))
             fields[field.name] = data.hex()
             payload += data

@@ -54,15 +54,15 @@ class RunningServer:
         # A test that fails before it stops its server must not leave it running.
         weakref.finalize(self, self._process.kill)
         threading.Thread(target=self._read, args=(self._process,), daemon=True).start()
-        said: list[str] = []
+        lines: list[str] = []
         deadline_s = time.monotonic() + PATIENCE_S
-        while "http://" not in (said or [""])[-1]:
+        while "http://" not in (lines or [""])[-1]:
             try:
-                said.append(self._lines.get(timeout=max(0.0, deadline_s - time.monotonic())))
+                lines.append(self._lines.get(timeout=max(0.0, deadline_s - time.monotonic())))
             except queue.Empty:
                 self.kill()
-                raise ServerDied("The server did not start:\n" + "".join(said)) from None
-        self.url = next(word for word in said[-1].split() if word.startswith("http://"))
+                raise ServerDied("The server did not start:\n" + "".join(lines)) from None
+        self.url = next(word for word in lines[-1].split() if word.startswith("http://"))
         return self
 
     @property
@@ -78,15 +78,15 @@ class RunningServer:
         return self._process.poll()
 
     def stop(self, ending: signal.Signals = signal.SIGINT) -> str:
-        """Stop it as Ctrl-C does; everything it has said since the address."""
+        """Stop it as Ctrl-C does; everything it printed since the address."""
         assert self._process is not None
         if self._process.poll() is None:
             self._process.send_signal(ending)
         self._process.wait(PATIENCE_S)
-        return self.said()
+        return self.output()
 
-    def said(self) -> str:
-        """What it has said since the address, or since this was asked before."""
+    def output(self) -> str:
+        """What it printed since the address, or since the last call."""
         lines = []
         while not self._lines.empty():
             lines.append(self._lines.get_nowait())

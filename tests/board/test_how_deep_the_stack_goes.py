@@ -18,7 +18,7 @@ from tools.bench.call_graph import (
     frames_reported,
     functions,
     linked,
-    said_by,
+    output_of,
 )
 
 # Of the Cortex-M4F's image. It may shrink; what makes it grow has to be worth it: the last was a
@@ -56,7 +56,7 @@ def test_the_unit_has_a_bound_and_it_starts_at_reset(image: Path) -> None:
 def test_no_painted_stack_was_ever_deeper_than_its_bound(image: Path) -> None:
     image = emulator.build("count")
 
-    painted = board.told(image)
+    painted = board.measured(image)
     bound = stack.stack_bound(image)
 
     assert bound.bytes_max - bound.interrupts_bytes >= painted["signature_stack_bytes"]
@@ -66,7 +66,7 @@ def test_no_painted_stack_was_ever_deeper_than_its_bound(image: Path) -> None:
 @pytest.mark.slow
 def test_no_frame_is_smaller_than_the_compiler_says(image: Path) -> None:
     reported = {(file, name): size for file, name, size in frames_reported(image)}
-    graph = functions(said_by("-d", image), linked(image))
+    graph = functions(output_of("-d", image), linked(image))
 
     known = [
         (function, reported[function.source.file, function.name])

@@ -83,7 +83,7 @@ def test_a_workshop_opens_its_server_to_the_network(tmp_path: Path) -> None:
 
     # A power cut signs nobody out and loses no key.
     server.kill()
-    said = server.said()
+    said = server.output()
     assert not [secret for secret in (*keys.values(), PASSWORD) if secret in said]
     with ServerHere(data, **REACHED) as again:
         moved = httpx.Client(base_url=again.url, cookies=browser.cookies)
@@ -125,5 +125,5 @@ def test_the_first_administrator_comes_by_the_printed_link(tmp_path: Path) -> No
 
 def printed(server: ServerProcess) -> str:
     """The token of the link, once it was printed."""
-    found = re.search(r"#first=(\S+)", server.said())
+    found = re.search(r"#first=(\S+)", server.output())
     return found[1] if found else ""

@@ -95,7 +95,7 @@ def memory(image: Path) -> list[Figure]:
     ]  # fmt: skip
 
 
-def told(image: Path) -> dict[str, int]:
+def measured(image: Path) -> dict[str, int]:
     """What boards/mps2_an386/main_count.c says of one run, by name."""
     words = [
         *("qemu-system-arm", "-M", "mps2-an386", "-display", "none", "-monitor", "none"),
@@ -108,7 +108,7 @@ def told(image: Path) -> dict[str, int]:
 
 
 def counts(image: Path) -> list[Figure]:
-    runs = [told(image) for _ in range(3)]
+    runs = [measured(image) for _ in range(3)]
     said = runs[0]
     same = "the same in 3 of 3 runs" if runs == [said] * 3 else "NOT the same in 3 runs"
     step = said["streaming_step_ticks10"] / 10 / TICKS_AN_INSTRUCTION

@@ -111,7 +111,7 @@ def linked(image: Path) -> dict[int, Source]:
     found: dict[int, Source] = {}
     file = ""
     # Local symbols follow the name of their file, the others come last, after an empty name.
-    for line in said_by("-t", image).splitlines():
+    for line in output_of("-t", image).splitlines():
         row = re.match(r"^([0-9a-f]{8}) (.{7}) \S+\s+[0-9a-f]+ (?:\.hidden )?(.*)$", line)
         if row is None:
             continue
@@ -146,13 +146,13 @@ def pointers_in(image: Path, files: Container[str]) -> Iterator[tuple[str, str]]
         if made.stem not in files:
             continue
         held: set[str] = set()
-        for line in said_by("-r", made).splitlines():
+        for line in output_of("-r", made).splitlines():
             row = re.match(r"^[0-9a-f]+ (R_ARM_(?:ABS32|TARGET1|THM_MOVW_ABS_NC))\s+(\S+)$", line)
             if row is not None:
                 held.add(row.group(2).removeprefix(".text.").partition("+")[0])
         yield from ((made.stem, name) for name in sorted(held))
 
 
-def said_by(option: str, file: Path) -> str:
+def output_of(option: str, file: Path) -> str:
     words = ["arm-none-eabi-objdump", option, "--no-show-raw-insn", str(file)]
     return subprocess.run(words, capture_output=True, text=True, check=True).stdout

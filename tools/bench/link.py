@@ -42,7 +42,7 @@ Bytes = npt.NDArray[np.uint8]
 
 
 def run() -> list[Figure]:
-    return [undetected(), *beside(), against_pymavlink(), host_cpu()]
+    return [undetected(), *fault_neighbours(), against_pymavlink(), host_cpu()]
 
 
 def undetected() -> Figure:
@@ -70,7 +70,7 @@ def undetected() -> Figure:
     )  # fmt: skip
 
 
-def beside() -> list[Figure]:
+def fault_neighbours() -> list[Figure]:
     """Frames lost beyond the faulty one, for each fault in every tenth frame."""
     faults: dict[str, Callable[[bytes, int], bytes]] = {
         "a flipped bit": lambda data, at: data[:at] + bytes([data[at] ^ 4]) + data[at + 1 :],
@@ -176,7 +176,7 @@ def host_cpu() -> Figure:
     )  # fmt: skip
 
 
-def answers_of(said: bytes) -> bytes:
+def answers_of(received: bytes) -> bytes:
     """What the unit said, without its stream."""
-    frames = framing.FrameDecoder().feed(said)
+    frames = framing.FrameDecoder().feed(received)
     return b"".join(encode_frame(f) for f in frames if not isinstance(decode(f), Stream))

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from fnmatch import fnmatch
 from pathlib import Path
 
-from tools.bench.call_graph import Function, UnknownStack, functions, linked, pointers_in, said_by
+from tools.bench.call_graph import Function, UnknownStack, functions, linked, output_of, pointers_in
 
 HAL = "hal"
 HANDLERS = "request handlers"
@@ -82,7 +82,7 @@ def stack_bound(image: Path) -> StackBound:
 
 def read(image: Path) -> tuple[dict[int, Function], list[tuple[str, str]]]:
     """The image's call graph and the pointers to its functions."""
-    graph = functions(said_by("-d", image), linked(image))
+    graph = functions(output_of("-d", image), linked(image))
     files = {function.source.file for function in graph.values()}
     return graph, list(pointers_in(image, files))
 

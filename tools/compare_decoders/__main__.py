@@ -23,27 +23,30 @@ def main(arguments: list[str]) -> int:
     )
     total = Counter[str]()
     for file in files:
-        told = compare(file.read_bytes())
-        report(file, told)
-        total["equal"] += told.equal
-        total["differ"] += told.differ.total()
-        total["only fitdecode"] += told.only_theirs.total()
-        total["only Spindle"] += told.only_ours.total()
+        compared = compare(file.read_bytes())
+        report(file, compared)
+        total["equal"] += compared.equal
+        total["differ"] += compared.differ.total()
+        total["only fitdecode"] += compared.only_theirs.total()
+        total["only Spindle"] += compared.only_ours.total()
     print(f"{len(files)} files: " + ", ".join(f"{n:,} {what}" for what, n in total.items()))
     return 1 if total["differ"] or total["only fitdecode"] else 0
 
 
-def report(file: Path, told: Comparison) -> None:
+def report(file: Path, compared: Comparison) -> None:
     """A line for a file, and one for each field that differs."""
-    print(f"{file.name}: {told.records} records ({told.records_theirs} by fitdecode), ", end="")
-    print(f"{told.equal:,} cells equal")
+    print(
+        f"{file.name}: {compared.records} records ({compared.records_theirs} by fitdecode), ",
+        end="",
+    )
+    print(f"{compared.equal:,} cells equal")
     for what, found in (
-        ("differ", told.differ),
-        ("only fitdecode has", told.only_theirs),
-        ("only Spindle has", told.only_ours),
+        ("differ", compared.differ),
+        ("only fitdecode has", compared.only_theirs),
+        ("only Spindle has", compared.only_ours),
     ):
         for name, count in found.most_common():
-            example = f", {told.examples[name]}" if what == "differ" else ""
+            example = f", {compared.examples[name]}" if what == "differ" else ""
             print(f"    {what}: {name} {count:,}{example}")
 
 

@@ -92,12 +92,12 @@ def push_section() -> list[str]:
 
 
 def road_section() -> list[str]:
-    def told(ride: Ride) -> str:
+    def cell(ride: Ride) -> str:
         battery, _ = wh_per_km(ride)
         return f"{ripple_pct(ride):.1f} %; {battery:.2f} Wh/km; {mean_kmh(ride):.1f} km/h"
 
     rows = [
-        [road, *(told(ridden(TABLE, road, changes)) for changes in FILTERS.values())]
+        [road, *(cell(ridden(TABLE, road, changes)) for changes in FILTERS.values())]
         for road in ROADS
     ]
     start = [f"{start_s(TABLE, 'legs', changes):.1f} s" for changes in FILTERS.values()]
@@ -113,7 +113,7 @@ def road_section() -> list[str]:
 
 
 def column_section() -> list[str]:
-    def told(changes: dict[str, Any]) -> str:
+    def cell(changes: dict[str, Any]) -> str:
         shares = column_shares(ridden(RESCALED, "commute", changes), RESCALED)
         return " ".join(f"{100 * share:.0f}" for share in shares)
 
@@ -124,7 +124,7 @@ def column_section() -> list[str]:
         f"`{RESCALED}` acted, NB to PB. With a time constant it is the stroke that leads through",
         "them; the mean over half a turn moves with the rider alone.",
         "",
-        *grid(["", *FILTERS], [["columns", *(told(changes) for changes in FILTERS.values())]]),
+        *grid(["", *FILTERS], [["columns", *(cell(changes) for changes in FILTERS.values())]]),
     ]
 
 

@@ -68,9 +68,9 @@ def grid(head: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
     return [*(f"| {' | '.join(line)} |" for line in lines), ""]
 
 
-def by_road(rides: Rides, told: Callable[[Ride, str], str]) -> list[str]:
-    """A row for each road, a column for each table. told: of a ride and its table."""
-    rows = [[road, *(told(rides[table, road], table) for table in TABLES)] for road in ROADS]
+def by_road(rides: Rides, cell: Callable[[Ride, str], str]) -> list[str]:
+    """A row for each road, a column for each table. cell: of a ride and its table."""
+    rows = [[road, *(cell(rides[table, road], table) for table in TABLES)] for road in ROADS]
     return grid(["road", *(f"`{table}`" for table in TABLES)], rows)
 
 
@@ -113,7 +113,7 @@ def start_section() -> list[str]:
 
 
 def energy_section(rides: Rides) -> list[str]:
-    def told(ride: Ride, _: str) -> str:
+    def cell(ride: Ride, _: str) -> str:
         battery, shaft = wh_per_km(ride)
         return f"{battery:.2f} / {shaft:.2f}, {mean_kmh(ride):.1f}"
 
@@ -125,7 +125,7 @@ def energy_section(rides: Rides) -> list[str]:
         "helping less, and the bike is a little slower. Where the motor's 2 Nm decide (the",
         "climbs), the table hardly does.",
         "",
-        *by_road(rides, told),
+        *by_road(rides, cell),
     ]
 
 
@@ -144,7 +144,7 @@ def ripple_section(rides: Rides) -> list[str]:
 
 
 def column_section(rides: Rides) -> list[str]:
-    def told(ride: Ride, table: str) -> str:
+    def cell(ride: Ride, table: str) -> str:
         shares = " ".join(f"{100 * share:.0f}" for share in column_shares(ride, table))
         return f"{shares}; {mean_gain(ride):.2f}"
 
@@ -157,7 +157,7 @@ def column_section(rides: Rides) -> list[str]:
         "stroke of steady legs gives rates up to 0.16: a table whose points lie above leaves its",
         "columns to starts, and one whose points lie below is led through them twice a turn.",
         "",
-        *by_road(rides, told),
+        *by_road(rides, cell),
     ]
 
 
@@ -168,8 +168,8 @@ def half_turn_section() -> list[str]:
         shares = " ".join(f"{100 * share:.0f}" for share in column_shares(ride, table))
         battery, _ = wh_per_km(ride)
         away_s = start_s(table, "legs", HALF_TURN)
-        told = [f"{battery:.2f} Wh/km", f"{ripple_pct(ride):.1f} %", shares, f"{away_s:.1f} s"]
-        rows.append([f"`{table}`", *told])
+        cell = [f"{battery:.2f} Wh/km", f"{ripple_pct(ride):.1f} %", shares, f"{away_s:.1f} s"]
+        rows.append([f"`{table}`", *cell])
     return [
         "## With the mean over half a turn",
         "",

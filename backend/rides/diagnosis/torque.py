@@ -45,7 +45,7 @@ class Segment:
         return self.moved_nm <= STILL_NM
 
     @property
-    def tells_zero(self) -> bool:
+    def shows_zero(self) -> bool:
         return self.is_still and abs(self.torque_nm) <= FOOT_NM
 
 
@@ -53,7 +53,7 @@ def zero_drift(ride: Evidence) -> list[DiagnosisFinding] | None:
     """The zero at rest, from pieces of STILL_S without a foot on the pedals; None without any."""
     resting = np.abs(ride.values[SPEED]) < RESTING_KMH
     resting &= np.abs(ride.values[CADENCE]) < REST_RPM
-    free = [segment for segment in unloaded_segments(ride, resting) if segment.tells_zero]
+    free = [segment for segment in unloaded_segments(ride, resting) if segment.shows_zero]
     if not free:
         return None
     at_s, zeros = [segment.begin_s for segment in free], [segment.torque_nm for segment in free]

@@ -47,7 +47,7 @@ def zero_of(ride: Evidence) -> RideZero:
     coasting = ride.values[SPEED] > MOVING_KMH
     coasting &= np.abs(ride.values[CADENCE]) < REST_RPM
     segments = unloaded_segments(ride, coasting)
-    free = [segment for segment in segments if segment.tells_zero]
+    free = [segment for segment in segments if segment.shows_zero]
     if not free:
         return RideZero(reason=why_none(segments))
     zeros = np.array([segment.torque_nm for segment in free])

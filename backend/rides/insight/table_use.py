@@ -218,7 +218,7 @@ class UseOfTable:
             "rides_by_defaults": by_defaults,
             "more": more,
             "since": iso_utc(min(ride.started_us for ride in counted)) if counted else None,
-            **told(total, points),
+            **use_answer(total, points),
         }
 
     def _chosen(
@@ -332,7 +332,7 @@ def names_for_use(ride: Ride) -> list[str]:
     return [*NEEDED, demand, FUZZY_GAIN, MOTOR_POWER.name]
 
 
-def told(use: TableUse, points: Points) -> dict[str, Any]:
+def use_answer(use: TableUse, points: Points) -> dict[str, Any]:
     """Sums and cells as in the API."""
     total_s = float(use.seconds.sum())
     wh = use.motor_wh

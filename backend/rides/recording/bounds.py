@@ -59,7 +59,7 @@ def rows_after(block: StreamBlock, row_count: int) -> StreamBlock:
 LOG = logging.getLogger(__name__)
 
 # So much of a ride is missing before a warning: a single damaged frame needs none.
-TOLD_S = 1.0
+MISSING_S_MIN = 1.0
 LOST_BY_WORDS = {
     LostBy.MACHINE: "this computer is too busy to read the unit's port in time. End what else runs "
     "on it, or connect fewer units",
@@ -91,7 +91,7 @@ class MissingRows:
         """Count rows; in the log once a ride."""
         self._by_place[lost_by] += rows
         self.rows += rows
-        if self.rows * period_us < TOLD_S * 1e6:
+        if self.rows * period_us < MISSING_S_MIN * 1e6:
             return
         place = self._by_place.most_common(1)[0][0]
         if self.most is None:

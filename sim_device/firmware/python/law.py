@@ -15,12 +15,7 @@ import numpy.typing as npt
 from firmware_protocol._generated import PARAMETER_BY_NAME, PARAMETERS, LimitFlags
 from firmware_protocol.layout import Parameter
 from firmware_protocol.parameter_values import BadValue
-from firmware_protocol.parameters import (
-    default_config,
-    pack_image,
-    pack_parameter,
-    violations,
-)
+from firmware_protocol.parameters import default_config, pack_image, pack_parameter, violations
 from firmware_protocol.spelling import word_of
 from sim_device.firmware.python._native import ffi, lib
 
@@ -90,7 +85,7 @@ TRACE_STEPS = tuple(
 )
 """The steps of the pipeline in their order: the names of assist_trace.h in lower case."""
 
-VIOLATIONS_TOLD = 5
+VIOLATIONS_NAMED = 5
 """Of a configuration that is refused: enough to mend it by."""
 FIRST_LATER_ID = 0x0600
 """Parameters from here on may be missing, as in the configuration of an old ride."""
@@ -355,7 +350,7 @@ def pack_inputs(inputs: Mapping[str, npt.ArrayLike]) -> npt.NDArray[np.void]:
     packed = np.empty(lengths.pop() if lengths else 1, INPUT_DTYPE)
     for name, column in columns.items():
         kind = INPUT_DTYPE[name]
-        packed[name] = _whole_or_largest(column, kind) if kind.kind == "u" else column
+        packed[name] = _integer_or_largest(column, kind) if kind.kind == "u" else column
     return packed
 
 
@@ -366,7 +361,7 @@ def _numbers(values: npt.ArrayLike, name: str) -> npt.NDArray[Any]:
     return numbers
 
 
-def _whole_or_largest(numbers: npt.NDArray[Any], kind: np.dtype[Any]) -> npt.NDArray[Any]:
+def _integer_or_largest(numbers: npt.NDArray[Any], kind: np.dtype[Any]) -> npt.NDArray[Any]:
     """What is missing or does not fit becomes the largest: a mode the law refuses, a brake that is
     pulled, a reading that is too old."""
     largest = np.iinfo(kind).max
@@ -440,9 +435,9 @@ def _image_of(config: Config, rows: Iterable[Parameter], what: str) -> bytes:
 
 def _refuse_violations(given: Config, what: str) -> None:
     """Raises LawRefused in the unit's words for what it would refuse."""
-    found = violations(given, whole=False)
+    found = violations(given, complete=False)
     if found:
-        raise LawRefused(f"{what}: {' '.join(one.message for one in found[:VIOLATIONS_TOLD])}")
+        raise LawRefused(f"{what}: {' '.join(one.message for one in found[:VIOLATIONS_NAMED])}")
 
 
 def _native_table(table: Config) -> Any:

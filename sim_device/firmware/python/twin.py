@@ -14,7 +14,7 @@ from sim_device.firmware.python import law
 from sim_device.firmware.python._native import ffi, lib
 
 Floats = npt.NDArray[np.float64]
-WHOLE = ("mode", "braking")
+INTEGERS = ("mode", "braking")
 
 SAMPLE_DTYPE: Final = np.dtype(
     [
@@ -96,10 +96,10 @@ class Twin:
     def __init__(self, road: Road, bike: Bike, longest_s: float) -> None:
         """longest_s: a ride that takes longer is given up."""
         names = [field.name for field in fields(Road) if field.name != "spacing_m"]
-        kinds = {name: np.uint8 if name in WHOLE else np.float64 for name in names}
+        kinds = {name: np.uint8 if name in INTEGERS else np.float64 for name in names}
         arrays = {name: np.ascontiguousarray(getattr(road, name), kinds[name]) for name in names}
         self._kept = [
-            ffi.from_buffer("uint8_t[]" if name in WHOLE else "double[]", array)
+            ffi.from_buffer("uint8_t[]" if name in INTEGERS else "double[]", array)
             for name, array in arrays.items()
         ]
         count = road.force_n.size

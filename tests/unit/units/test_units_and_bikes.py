@@ -15,7 +15,7 @@ from sqlalchemy import insert, update
 
 import backend.store
 from backend.core.ride import Ride, RideContext
-from backend.core.unit_key import bike_name, ebl_key, tells_unit, unit_key
+from backend.core.unit_key import bike_name, ebl_key, identifies_unit, unit_key
 from backend.rebuild import rebuild_store
 from backend.store import Sought, Store, UnitSighting, open_store
 from backend.store.sql import tables as t
@@ -51,7 +51,7 @@ def test_a_key_is_of_the_serial_number_else_of_the_name_else_of_the_url(
     serial_number: str | None, name: str | None, key: str, tells: bool
 ) -> None:
     assert unit_key("ebl", serial_number, name, "socket://shed:1") == key
-    assert tells_unit(key) is tells
+    assert identifies_unit(key) is tells
 
 
 def test_what_is_older_than_keys_is_a_unit_of_our_own_protocol() -> None:
