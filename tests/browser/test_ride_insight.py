@@ -18,7 +18,7 @@ def test_a_ride_tells_its_energy_effort_and_health(
     desk: Desk, server: SpindleServer, axe: str
 ) -> None:
     ride = long_ride(server)
-    told = server.get(f"/rides/{ride}/energy")["whole"]
+    told = server.get(f"/rides/{ride}/energy")["total"]
     page = desk.open(f"/rides/{ride}")
 
     energy = page.get_by_test_id("energy")

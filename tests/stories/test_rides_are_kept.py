@@ -140,7 +140,7 @@ def test_a_ride_tells_where_its_energy_went(workshop: SpindleServer, ride: dict[
 
     summary = ride["summary"]
     for figure in ("rider_wh", "motor_wh", "battery_wh", "distance_km"):
-        assert energy["whole"][figure] == pytest.approx(summary[figure], rel=1e-3)
+        assert energy["total"][figure] == pytest.approx(summary[figure], rel=1e-3)
     assert energy["modes"][0]["name"], "its configuration is known"
     assert energy["range_refused"] in {"short_way", "little_used"}
     assert effort["power"]["reference"] == 160.0

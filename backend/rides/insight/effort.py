@@ -50,7 +50,7 @@ class Distribution:
     """Of what is counted."""
     most: float
     """The greatest mean of a second."""
-    known_s: float
+    valid_s: float
     unknown_s: float
     """Time without the quantity."""
 
@@ -176,7 +176,7 @@ def distribution(
         ),
         mean=float(np.average(values[valid], weights=seconds[valid])),
         most=float(values[valid].max()),
-        known_s=float(seconds[valid].sum()),
+        valid_s=float(seconds[valid].sum()),
         unknown_s=float(seconds[~np.isfinite(values)].sum()),
     )
 

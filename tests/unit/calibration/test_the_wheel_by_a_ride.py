@@ -94,7 +94,7 @@ def test_a_larger_wheel_is_found_by_the_positions_of_its_own_ride(store: Store) 
     # Half a percent of positions that wander, one turn of 1700: rectangles, k = 2.
     share = math.hypot(0.005, 1 / told.turns) / math.sqrt(3)
     assert told.measured.expanded_m == pytest.approx(2 * share * LARGER * KEPT_M, rel=0.02)
-    assert told.beside is None
+    assert told.unit_comparison is None
 
 
 def test_the_positions_may_be_of_another_device_with_a_clock_of_its_own(store: Store) -> None:
@@ -123,7 +123,7 @@ def test_what_a_ride_lacks_for_its_wheel_is_named(store: Store) -> None:
     for question, source, expected in (
         (TrackQuestion(Window(bare)), "ride", ("ride_id", "missing_channel")),
         (TrackQuestion(Window(torn)), "ride", ("ride_id", "missing_rows")),
-        (TrackQuestion(Window(whole)), "defaults", ("told_circumference_m", "missing")),
+        (TrackQuestion(Window(whole)), "defaults", ("device_circumference_m", "missing")),
     ):
         with pytest.raises(InvalidRequest) as refused:
             measure(store, source).tracked(question, None)
@@ -156,8 +156,8 @@ def test_pulses_of_a_wheel_turned_by_hand_are_told_beside_the_unit_s(store: Stor
 
     told = PulseCount(store, lambda ride, t_s=0: (has, "ride"))(Window(ride), 25)
 
-    assert told.told_turns == pytest.approx(12.5, abs=0.05)  # 0.01 km/h
-    assert (told.pulses.kept, told.pulses.whole, told.pulses.agrees) == (36, 18, False)
+    assert told.reported_turns == pytest.approx(12.5, abs=0.05)  # 0.01 km/h
+    assert (told.pulses.stored, told.pulses.nearest_integer, told.pulses.agrees) == (36, 18, False)
     with pytest.raises(InvalidRequest) as refused:
         PulseCount(store, lambda ride, t_s=0: (has, "defaults"))(Window(ride), 25)
     assert codes(refused) == [("ride_id", "missing")]
@@ -244,8 +244,8 @@ def test_a_cadence_that_tells_less_than_the_crank_turns_is_told(store: Store) ->
     at_s = np.arange(0.0, 60.0, 0.05)
     angle_deg = (80.0 * 6.0 * at_s) % 360.0
 
-    def checked(told_rpm: float, day: int) -> Cadence:
-        columns = {"cadence_rpm": np.full(len(at_s), told_rpm), "crank_angle_deg": angle_deg}
+    def checked(reported_rpm: float, day: int) -> Cadence:
+        columns = {"cadence_rpm": np.full(len(at_s), reported_rpm), "crank_angle_deg": angle_deg}
         return CadenceCheck(store)(Window(kept(store, columns, day * DAY_S, row_s=0.05)))
 
     true, less = checked(80.0, 1), checked(78.0, 2)

@@ -38,7 +38,7 @@ def test_power_zones_are_those_of_allen_and_coggan() -> None:
     assert told is not None
     assert [band.seconds for band in told.bands] == [1, 2, 1, 2, 1, 1, 2]
     assert [band.high for band in told.bands] == pytest.approx([110, 150, 180, 210, 240, 300, None])
-    assert (told.zones, told.known_s, told.unknown_s) == (True, 10.0, 1.0)
+    assert (told.zones, told.valid_s, told.unknown_s) == (True, 10.0, 1.0)
 
 
 def test_without_a_threshold_there_are_bands_and_no_zones() -> None:
@@ -76,7 +76,7 @@ def test_torque_of_a_head_unit_is_power_over_cadence() -> None:
         (30.0, 1),
         (None, 1),
     ]
-    assert turns.known_s == 2.0
+    assert turns.valid_s == 2.0
     assert power_time(whole_seconds(cadence_rpm=[60]), 200.0) is None
 
 

@@ -1,6 +1,13 @@
 // What the server does with files that come in; sending them is `uploadFile`.
 import { body, type Http } from './client'
-import type { KnownTable, Ride, SaidOfTable, TableQuestion, Upload, UploadList } from './types'
+import type {
+  AnsweredTable,
+  Ride,
+  TableAnswerRequest,
+  TableQuestion,
+  Upload,
+  UploadList,
+} from './types'
 
 export class FileServer {
   constructor(private readonly http: Http) {}
@@ -30,7 +37,7 @@ export class FileServer {
   }
 
   /** Says it; what became of the file. */
-  sayOfTable(id: string, said: SaidOfTable): Promise<Upload> {
+  sayOfTable(id: string, said: TableAnswerRequest): Promise<Upload> {
     return body(
       this.http.PUT('/api/v1/uploads/{upload_id}/mapping', { ...this.at(id), body: said }),
     )
@@ -42,7 +49,7 @@ export class FileServer {
   }
 
   /** What was said of which tables. */
-  async knownTables(): Promise<KnownTable[]> {
+  async knownTables(): Promise<AnsweredTable[]> {
     return (await body(this.http.GET('/api/v1/tables'))).items
   }
 

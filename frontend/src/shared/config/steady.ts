@@ -2,4 +2,4 @@
 import type { WhyRequest } from '../api/types'
 
 /** Held until what the law averages has settled. */
-export const STEADY = { brake: false, walk_button: false, held_s: 10 } satisfies Partial<WhyRequest>
+export const STEADY = { brake: false, walk_button: false, hold_s: 10 } satisfies Partial<WhyRequest>

@@ -4,9 +4,9 @@ import { body, type Http } from '$shared/api/client'
 
 type Schemas = components['schemas']
 export type WheelTold = Schemas['Wheel']
-export type PulsesTold = Schemas['PulsesTold']
+export type PulseComparison = Schemas['PulseComparison']
 export type CadenceTold = Schemas['Cadence']
-export type ClimbTold = Awaited<ReturnType<BikeServer['climb']>>
+export type ClimbResult = Awaited<ReturnType<BikeServer['climb']>>
 export type RollOut = Schemas['RollOut']
 export type WheelByTrack = Schemas['WheelByTrack']
 export type PulsesRequest = Schemas['PulsesRequest']
@@ -30,7 +30,7 @@ export class BikeServer {
     return body(this.http.POST('/api/v1/calibration/wheel/track', { body: asked, signal }))
   }
 
-  pulses(asked: PulsesRequest, signal: AbortSignal): Promise<PulsesTold> {
+  pulses(asked: PulsesRequest, signal: AbortSignal): Promise<PulseComparison> {
     return body(this.http.POST('/api/v1/calibration/wheel/pulses', { body: asked, signal }))
   }
 

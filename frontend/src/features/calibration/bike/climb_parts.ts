@@ -1,5 +1,5 @@
 // The parts of a climb's question, and its answer as bars.
-import type { ClimbTold, Slope } from './bike_server'
+import type { ClimbResult, Slope } from './bike_server'
 
 export interface Part {
   kind: 'climb' | 'coast'
@@ -35,7 +35,7 @@ export function asSlope({ ride_id, from_s, to_s, rise_m }: Part): Slope {
 }
 
 /** What gave and what took, each by itself: legs and motor are never added. */
-export function barsOf({ balance }: ClimbTold): Bar[] {
+export function barsOf({ balance }: ClimbResult): Bar[] {
   const { needed } = balance
   const told: [Bar['key'], number | null][] = [
     ['legs', balance.crank_energy_j],
@@ -55,6 +55,6 @@ export function barsOf({ balance }: ClimbTold): Bar[] {
 }
 
 /** What leaves the ratio open, the largest first, as shares. */
-export function causesOf({ balance }: ClimbTold): [string, number][] {
+export function causesOf({ balance }: ClimbResult): [string, number][] {
   return Object.entries(balance.contributions).sort(([, a], [, b]) => b - a)
 }

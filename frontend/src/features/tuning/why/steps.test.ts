@@ -37,7 +37,7 @@ function why(changes: Partial<Why> = {}): Why {
     step('current_control', -0.1),
   ]
   return {
-    moment: { kind: 'ride', ride_id: 1, t_s: 516.2, held_s: null },
+    moment: { kind: 'ride', ride_id: 1, t_s: 516.2, hold_s: null },
     config_source: 'ride',
     engine: '',
     warmed_up_s: 516,

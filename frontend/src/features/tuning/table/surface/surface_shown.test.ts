@@ -9,11 +9,11 @@ const CUTOFF = 0x0002
 const torque: TorqueSurface = {
   speeds_kmh: [0, 10],
   torque_rates: [0, 0.5],
-  asked_nm: [
+  demanded_nm: [
     [20, 60],
     [20, 60],
   ],
-  given_nm: [
+  delivered_nm: [
     [20, 40],
     [0, 0],
   ],
@@ -28,15 +28,15 @@ const torque: TorqueSurface = {
 const gain = { speeds_kmh: [0, 10], torque_rates: [0, 1], gain: [[0.1, 0.2]] }
 
 it('shows the gain until the torque is known', () => {
-  expect(pictureOf('given_nm', gain, null, 60)?.shown).toBe('gain')
-  expect(pictureOf('given_nm', null, null, 60)).toBeNull()
+  expect(pictureOf('delivered_nm', gain, null, 60)?.shown).toBe('gain')
+  expect(pictureOf('delivered_nm', null, null, 60)).toBeNull()
 })
 
 it('tells what arrives, what was asked, and which limit took the rest', () => {
-  const picture = pictureOf('given_nm', gain, torque, 60)
+  const picture = pictureOf('delivered_nm', gain, torque, 60)
 
-  expect(picture?.z).toEqual(torque.given_nm)
-  expect(picture?.asked).toEqual(torque.asked_nm)
+  expect(picture?.z).toEqual(torque.delivered_nm)
+  expect(picture?.asked).toEqual(torque.demanded_nm)
   expect(picture?.taken_by).toEqual([
     [[], ['market']],
     [['speed_cutoff'], ['speed_cutoff', 'market']],
@@ -48,5 +48,5 @@ it('tells what arrives, what was asked, and which limit took the rest', () => {
 })
 
 it('tells power at the speed the crank turns with', () => {
-  expect(pictureOf('asked_w', gain, torque, 60)?.z[0]?.[1]).toBeCloseTo(60 * 2 * Math.PI)
+  expect(pictureOf('demanded_w', gain, torque, 60)?.z[0]?.[1]).toBeCloseTo(60 * 2 * Math.PI)
 })

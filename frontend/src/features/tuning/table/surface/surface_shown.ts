@@ -4,7 +4,7 @@ import { flagNames } from '$shared/stream/flags'
 import type { GainSurface } from './surface_preview.svelte'
 import type { Place } from './trail.svelte'
 
-export const SHOWN = ['gain', 'asked_nm', 'given_nm', 'asked_w', 'given_w'] as const
+export const SHOWN = ['gain', 'demanded_nm', 'delivered_nm', 'demanded_w', 'delivered_w'] as const
 export type Shown = (typeof SHOWN)[number]
 
 /** The largest gain a table can hold: a fixed scale makes edits comparable. */
@@ -66,19 +66,19 @@ export function pictureOf(
     top: watts ? top_nm * torque.crank_rad_per_s : top_nm,
     unit: watts ? ('W' as const) : ('Nm' as const),
   }
-  if (wanted.startsWith('asked')) {
-    return { ...frame, z: times(torque.asked_nm), asked: null, taken_by: null }
+  if (wanted.startsWith('demanded')) {
+    return { ...frame, z: times(torque.demanded_nm), asked: null, taken_by: null }
   }
-  const taken_by = torque.given_nm.map((row, i) =>
+  const taken_by = torque.delivered_nm.map((row, i) =>
     row.map((given, j) => {
-      const asked = torque.asked_nm[i]?.[j] ?? 0
+      const asked = torque.demanded_nm[i]?.[j] ?? 0
       if (asked - given <= TAKEN_SHARE * asked) return []
       return flagNames('limit_flags', limit_flags[i]?.[j] ?? 0).filter(
         (name) => !OFF_THE_WAY.includes(name),
       )
     }),
   )
-  return { ...frame, z: times(torque.given_nm), asked: times(torque.asked_nm), taken_by }
+  return { ...frame, z: times(torque.delivered_nm), asked: times(torque.demanded_nm), taken_by }
 }
 
 /** Every limit that takes something anywhere, and how much of the grid it is. */
