@@ -73,7 +73,7 @@ export class CompareLook implements Cursor {
   }
 
   get channels(): ComparedChannel[] {
-    return inOrder(this.told.answer?.channels ?? [])
+    return inOrder(this.told.value?.channels ?? [])
   }
 
   get shown(): ComparedChannel[] {
@@ -82,7 +82,7 @@ export class CompareLook implements Cursor {
 
   /** Whether an axis can be told of both. */
   offers(by: By): boolean {
-    const { answer } = this.told
+    const answer = this.told.value
     return by !== 'distance' || !!(answer?.a.length_m && answer.b.length_m)
   }
 
@@ -91,8 +91,8 @@ export class CompareLook implements Cursor {
     this.view?.stop()
     this.view = null
     if (!pair) return
-    await this.told.ask((signal) => this.asks.figures(pair, signal))
-    const { answer } = this.told
+    await this.told.request((signal) => this.asks.figures(pair, signal))
+    const answer = this.told.value
     if (!answer) return
     const known = answer.channels.map(({ name }) => name)
     const wanted = this.wanted.filter((name) => known.includes(name))
@@ -118,10 +118,10 @@ export class CompareLook implements Cursor {
     this.by = by
     this.view?.stop()
     this.view = null
-    const [pair, answer] = [this.pair, this.told.answer]
+    const [pair, answer] = [this.pair, this.told.value]
     if (!pair || !answer) return
     if (by === 'crank') {
-      void this.crank.ask((signal) => this.asks.crank(pair, signal))
+      void this.crank.request((signal) => this.asks.crank(pair, signal))
       return
     }
     if (this.names.length === 0) return

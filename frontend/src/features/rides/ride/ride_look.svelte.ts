@@ -58,7 +58,7 @@ export class RideLook implements Cursor {
   /** Fetches what stands beside the traces. */
   async load(): Promise<void> {
     const { id, state } = this.ride
-    if (state === 'done') void this.energy.ask((signal) => this.server.energy(id, signal))
+    if (state === 'done') void this.energy.request((signal) => this.server.energy(id, signal))
     if (!this.view) return
     // The page says by itself what is wrong with a ride.
     const { signal } = this.left

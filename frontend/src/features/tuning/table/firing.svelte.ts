@@ -14,7 +14,7 @@ export class Firing {
 
   /** Weight of a rule, 0 to 1. */
   weight(row: number, column: number): number {
-    const rule = this.newest.answer?.rules.find((one) => one.row === row && one.column === column)
+    const rule = this.newest.value?.rules.find((one) => one.row === row && one.column === column)
     return rule?.weight ?? 0
   }
 
@@ -23,13 +23,13 @@ export class Firing {
     if (this.timer) clearTimeout(this.timer)
     if (!state) {
       this.newest.stop()
-      this.newest.answer = null
+      this.newest.value = null
       return
     }
     const wait_ms = this.asked_ms + PACE_MS - performance.now()
     this.timer = setTimeout(() => {
       this.asked_ms = performance.now()
-      void this.newest.ask((signal) => this.server.whySteady(null, state, signal))
+      void this.newest.request((signal) => this.server.whySteady(null, state, signal))
     }, Math.max(0, wait_ms))
   }
 

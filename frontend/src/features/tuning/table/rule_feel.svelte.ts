@@ -19,12 +19,12 @@ export class RuleFeelPreview {
   constructor(private readonly server: Server) {}
 
   get feel(): RuleFeel | null {
-    return this.newest.answer
+    return this.newest.value
   }
 
   /** One point of the draft and of the unit; unit: null where that has no such mode. */
   async ask(draft: TorqueSurfaceRequest, unit: TorqueSurfaceRequest | null): Promise<void> {
-    await this.newest.ask(async (signal) => {
+    await this.newest.request(async (signal) => {
       const [drafted, stored] = await Promise.all([
         this.server.torqueSurface(draft, signal),
         unit && this.server.torqueSurface(unit, signal),

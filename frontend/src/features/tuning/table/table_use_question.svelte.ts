@@ -17,7 +17,7 @@ export class TableUseQuestion {
 
   /** Of the points asked for last, or while those are looked up of the ones before. */
   get found(): TableUse | null {
-    return this.newest.answer
+    return this.newest.value
   }
 
   get trouble(): Refusal | null {
@@ -27,12 +27,12 @@ export class TableUseQuestion {
   async ask(question: TableUseRequest): Promise<void> {
     // What another unit's rides say is not kept on show.
     if (this.device !== question.device) {
-      this.newest.answer = null
+      this.newest.value = null
       this.answered = false
     }
     this.device = question.device
     const rest_ms = this.answered ? REST_MS : 0
-    await this.newest.ask(async (signal) => {
+    await this.newest.request(async (signal) => {
       if (rest_ms) await new Promise((rested) => setTimeout(rested, rest_ms))
       signal.throwIfAborted()
       const found = await this.server.tableUse(question, signal)

@@ -14,7 +14,7 @@ export class LiveMoment {
   constructor(private readonly server: Server) {}
 
   get why(): Why | null {
-    return this.ride && this.newest.answer
+    return this.ride && this.newest.value
   }
 
   get refused(): Refusal | null {
@@ -30,7 +30,7 @@ export class LiveMoment {
     const { id, row_count, period_us } = this.ride
     if (!row_count || !period_us) return
     const t_s = ((row_count - 1) * period_us) / 1e6
-    await this.newest.ask((signal) => this.server.whyOfRide(id, t_s, signal))
+    await this.newest.request((signal) => this.server.whyOfRide(id, t_s, signal))
     this.t_s = t_s
   }
 

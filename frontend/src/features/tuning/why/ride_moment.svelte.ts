@@ -35,7 +35,7 @@ export class RideMoment {
   }
 
   get why(): Why | null {
-    return this.newest.answer
+    return this.newest.value
   }
 
   get refused(): Refusal | null {
@@ -89,6 +89,6 @@ export class RideMoment {
     if (!this.ride) return
     this.asked_ms = performance.now()
     const [id, t_s] = [this.ride.id, this.t_s]
-    await this.newest.ask((signal) => this.server.whyOfRide(id, t_s, signal))
+    await this.newest.request((signal) => this.server.whyOfRide(id, t_s, signal))
   }
 }

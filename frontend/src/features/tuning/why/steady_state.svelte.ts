@@ -16,13 +16,13 @@ export class SteadyState {
   ask(device_id: string | null, state: WhyRequest): void {
     if (this.timer) clearTimeout(this.timer)
     this.timer = setTimeout(
-      () => void this.newest.ask((signal) => this.server.whySteady(device_id, state, signal)),
+      () => void this.newest.request((signal) => this.server.whySteady(device_id, state, signal)),
       PACE_MS,
     )
   }
 
   get why(): Why | null {
-    return this.newest.answer
+    return this.newest.value
   }
 
   get refused(): Refusal | null {

@@ -34,11 +34,11 @@ export class SurfacePreview {
   constructor(private readonly server: Server) {}
 
   get gain(): GainSurface | null {
-    return this.gains.answer
+    return this.gains.value
   }
 
   get torque(): TorqueSurface | null {
-    return this.torques.answer
+    return this.torques.value
   }
 
   /** Whether what is shown waits for the server: whatever else is asked of it would delay it. */
@@ -47,7 +47,7 @@ export class SurfacePreview {
   }
 
   get lint(): LintReport | null {
-    return this.findings.answer
+    return this.findings.value
   }
 
   get trouble(): string | null {
@@ -61,18 +61,18 @@ export class SurfacePreview {
     this.findings.stop()
     const table = question.fuzzy_table
     const { speeds_kmh, torque_rates } = grid(table, GAIN_POINTS)
-    await this.gains.ask(async (signal) => {
+    await this.gains.request(async (signal) => {
       const { gain } = await this.server.surface(table, speeds_kmh, torque_rates, signal)
       return { speeds_kmh, torque_rates, gain }
     })
     if (this.asked !== question) return
-    await this.findings.ask((signal) => this.server.lint(question, signal))
+    await this.findings.request((signal) => this.server.lint(question, signal))
   }
 
   /** What comes of the table at the crank, for a steady push in one of its modes. */
   async askTorque(table: FuzzyTable, question: TorqueQuestion): Promise<void> {
     const asked = { ...question, ...grid(table, TORQUE_POINTS) }
-    await this.torques.ask((signal) => this.server.torqueSurface(asked, signal))
+    await this.torques.request((signal) => this.server.torqueSurface(asked, signal))
   }
 
   stop(): void {
