@@ -41,9 +41,9 @@ const FEATURES = {
 const WIZARD = {
   job: [],
   words: ['job'],
-  found: ['job', 'words'],
-  steps: ['found', 'job', 'words'],
-  certificate: ['found', 'job', 'steps', 'words'],
+  results: ['job', 'words'],
+  steps: ['results', 'job', 'words'],
+  certificate: ['results', 'job', 'steps', 'words'],
 }
 
 const zone = (message, ...regexes) => [

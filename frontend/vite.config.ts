@@ -12,7 +12,7 @@ const MOST = [
   'context/(?!KeyList|words)',
   'device/(?!FaultMoment|fault_moment|words)|stream/(?!polled)|ui|units',
   'charts/(traces/plotly\\.ts|plot_axis\\.ts|[Ss]park)',
-  'config/(config_draft|drafts|elements|kept_drafts|limits|page_draft|parameter_text)',
+  'config/(config_draft|drafts|elements|stored_drafts|limits|page_draft|parameter_text)',
   'config/(ratchet|trial|two_tables)',
   'i18n',
 ]

@@ -66,7 +66,7 @@ def test_a_rolled_wheel_is_told_beside_the_unit_s_and_written(
         typed(page, f"Roll {number}", f"{1.02 * kept_m + error_m:.4f}")
     panel.get_by_role("button", name="Measure").click()
 
-    found = page.get_by_test_id("wheel-found")
+    found = page.get_by_test_id("wheel-result")
     expect(found.locator("[data-agrees=false]")).to_contain_text(
         re.compile(r"shows 25\.0.km/h .* the bike goes 25\.5\d.km/h")
     )

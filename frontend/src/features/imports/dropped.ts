@@ -7,8 +7,8 @@ export async function droppedFiles(transfer: DataTransfer | null): Promise<File[
     .map((item) => item.webkitGetAsEntry?.() ?? null)
     .filter((entry) => entry !== null)
   if (!entries.some((entry) => entry.isDirectory)) return [...(transfer?.files ?? [])]
-  const found = await Promise.all(entries.map(filesOf))
-  return shownFiles(found.flat())
+  const files = await Promise.all(entries.map(filesOf))
+  return shownFiles(files.flat())
 }
 
 /** Those that a person put there: `.DS_Store` and the like are nobody's rides. */
@@ -20,13 +20,13 @@ async function filesOf(entry: FileSystemEntry): Promise<File[]> {
     return [await new Promise((done, fail) => (entry as FileSystemFileEntry).file(done, fail))]
   }
   const reader = (entry as FileSystemDirectoryEntry).createReader()
-  const found: File[] = []
+  const files: File[] = []
   // A reader gives a hundred at a time, and none at the end.
   for (;;) {
     const some = await new Promise<FileSystemEntry[]>((done, fail) => {
       reader.readEntries(done, fail)
     })
-    if (some.length === 0) return found
-    found.push(...(await Promise.all(some.map(filesOf))).flat())
+    if (some.length === 0) return files
+    files.push(...(await Promise.all(some.map(filesOf))).flat())
   }
 }

@@ -1,7 +1,7 @@
 /* Goal: a unit is never chosen for a rider, and a table is read when all that is asked is said. */
 import type { TableQuestion } from '$shared/api/types'
 import { describe, expect, it } from 'vitest'
-import { answered, isWhole } from './table_answers'
+import { answered, isComplete } from './table_answers'
 
 const column = (name: string, units: string[]) => ({
   name,
@@ -29,16 +29,16 @@ describe('what is said of a table', () => {
   })
 
   it('begins with what was said before, as far as it can still be said', () => {
-    const known = { time_zone: 'UTC', units: { speed: 'knots' }, rows_per_second: 5 }
-    const said = answered({ ...question, answer: known }, 'Europe/Dublin')
-    expect(said).toEqual({ zone: 'UTC', units: { speed: '' }, rate: 5 })
+    const stored = { time_zone: 'UTC', units: { speed: 'knots' }, rows_per_second: 5 }
+    const draft = answered({ ...question, answer: stored }, 'Europe/Dublin')
+    expect(draft).toEqual({ zone: 'UTC', units: { speed: '' }, rate: 5 })
   })
 
   it('is whole with a zone, each unit, and a rate where rows have no time', () => {
-    const said = { zone: 'UTC', units: { speed: 'm/s' }, rate: null }
-    expect(isWhole(question, said)).toBe(true)
-    expect(isWhole(question, { ...said, zone: ' ' })).toBe(false)
-    expect(isWhole(question, { ...said, units: { speed: '' } })).toBe(false)
-    expect(isWhole({ ...question, rows_per_second: true }, said)).toBe(false)
+    const draft = { zone: 'UTC', units: { speed: 'm/s' }, rate: null }
+    expect(isComplete(question, draft)).toBe(true)
+    expect(isComplete(question, { ...draft, zone: ' ' })).toBe(false)
+    expect(isComplete(question, { ...draft, units: { speed: '' } })).toBe(false)
+    expect(isComplete({ ...question, rows_per_second: true }, draft)).toBe(false)
   })
 })

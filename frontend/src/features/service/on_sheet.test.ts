@@ -11,12 +11,12 @@ import en from '$messages/en/service.json'
 
 const at = (hour: number) => new Date(Date.UTC(2026, 10, 22, hour)).toISOString()
 const ride = (hour: number, state = 'done') => {
-  const told: Partial<Ride> = { id: hour, state: state as Ride['state'], started_at: at(hour) }
-  return told as Ride
+  const row: Partial<Ride> = { id: hour, state: state as Ride['state'], started_at: at(hour) }
+  return row as Ride
 }
 const revision = (hour: number, changed: Revision['changed'] = []) => {
-  const told: Partial<Revision> = { seq: hour, created_at: at(hour), changed }
-  return told as Revision
+  const row: Partial<Revision> = { seq: hour, created_at: at(hour), changed }
+  return row as Revision
 }
 const job = (...over: number[]): Job => ({
   ...newJob(),
@@ -60,7 +60,7 @@ const say = (key: keyof typeof en, values: Record<string, unknown> = {}) =>
     (text, [name, value]) => text.replace(`{${name}}`, String(value)),
     en[key] as string,
   )
-const told = (level: SensorDrift['level'], zero_nm: number): SensorDrift =>
+const row = (level: SensorDrift['level'], zero_nm: number): SensorDrift =>
   ({
     act_nm: 3,
     level,
@@ -83,27 +83,27 @@ const checked = (drift: SensorDrift | null) => {
 }
 
 it('names the newest zero with its ride, and passes while the zero holds', () => {
-  expect(checked(told('ok', 0.42))).toMatchObject({
-    found: '0.42 Nm, Monday; of 2 rides',
+  expect(checked(row('ok', 0.42))).toMatchObject({
+    result: '0.42 Nm, Monday; of 2 rides',
     allowed: '≤ 3 Nm',
     passed: true,
   })
 })
 
 it('asks to watch a zero that has moved, and fails one at which the unit gives no assist', () => {
-  expect(checked(told('watch', 1.4))).toMatchObject({ passed: true })
-  expect(checked(told('watch', 1.4))?.found).toContain('watch it')
-  expect(checked(told('act', -3.2))).toMatchObject({ passed: false })
+  expect(checked(row('watch', 1.4))).toMatchObject({ passed: true })
+  expect(checked(row('watch', 1.4))?.result).toContain('watch it')
+  expect(checked(row('act', -3.2))).toMatchObject({ passed: false })
 })
 
 it('tells the trend where the rides show one', () => {
   const trend = { per_month_nm: { value: 0.2 } } as unknown as SensorDrift['trend']
 
-  expect(checked({ ...told('ok', 0.4), trend })?.found).toContain('0.20 Nm a month')
+  expect(checked({ ...row('ok', 0.4), trend })?.result).toContain('0.20 Nm a month')
 })
 
 it('is not done where no ride told the zero', () => {
-  expect(checked(told(null, 0))).toMatchObject({ found: en.drift_none, passed: null })
+  expect(checked(row(null, 0))).toMatchObject({ result: en.drift_none, passed: null })
   expect(checked(null)).toMatchObject({ passed: null })
 })
 
@@ -114,16 +114,16 @@ it('fails a sensor that the unit calls faulty, with a reading and without', () =
   const dead = { channels: { rider_torque_nm: null }, faults_active: ['torque_sensor'] }
   const stuck = { channels: { rider_torque_nm: 0 }, faults_active: ['torque_stuck'] }
 
-  expect(zeroCheck(dead)).toMatchObject({ found: en.no_reading, passed: false })
-  expect(zeroCheck(stuck)).toMatchObject({ found: '0.0 Nm', passed: false })
+  expect(zeroCheck(dead)).toMatchObject({ result: en.no_reading, passed: false })
+  expect(zeroCheck(stuck)).toMatchObject({ result: '0.0 Nm', passed: false })
   expect(zeroCheck({ channels: {}, faults_active: ['torque_link'] })?.passed).toBe(false)
 })
 
 it('tells a value that is missing now from one that the unit never sends', () => {
   expect(zeroCheck({ channels: { rider_torque_nm: null } })).toMatchObject({
-    found: en.no_reading,
+    result: en.no_reading,
     passed: null,
   })
-  expect(zeroCheck({})).toMatchObject({ found: en.why_unsent, passed: null })
+  expect(zeroCheck({})).toMatchObject({ result: en.why_unsent, passed: null })
   expect(zeroCheck({ channels: { rider_torque_nm: 0.5 } })).toMatchObject({ passed: true })
 })

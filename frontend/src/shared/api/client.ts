@@ -61,15 +61,15 @@ interface Answer<T> {
 }
 
 /** The body of an answer; throws Refusal. */
-export async function body<T>(asked: Promise<Answer<T>>): Promise<T> {
-  return (await bodyAndTag(asked))[0]
+export async function body<T>(pending: Promise<Answer<T>>): Promise<T> {
+  return (await bodyAndTag(pending))[0]
 }
 
 /** The body and the ETag of an answer; throws Refusal. */
-export async function bodyAndTag<T>(asked: Promise<Answer<T>>): Promise<[T, string]> {
+export async function bodyAndTag<T>(pending: Promise<Answer<T>>): Promise<[T, string]> {
   let answer: Answer<T>
   try {
-    answer = await asked
+    answer = await pending
   } catch (error) {
     if (error instanceof DOMException && error.name === 'AbortError') throw error
     throw new Refusal(0, 'unreachable', String(error))

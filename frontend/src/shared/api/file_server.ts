@@ -37,9 +37,9 @@ export class FileServer {
   }
 
   /** Says it; what became of the file. */
-  sayOfTable(id: string, said: TableAnswerRequest): Promise<Upload> {
+  sayOfTable(id: string, answer: TableAnswerRequest): Promise<Upload> {
     return body(
-      this.http.PUT('/api/v1/uploads/{upload_id}/mapping', { ...this.at(id), body: said }),
+      this.http.PUT('/api/v1/uploads/{upload_id}/mapping', { ...this.at(id), body: answer }),
     )
   }
 
@@ -49,7 +49,7 @@ export class FileServer {
   }
 
   /** What was said of which tables. */
-  async knownTables(): Promise<AnsweredTable[]> {
+  async answeredTables(): Promise<AnsweredTable[]> {
     return (await body(this.http.GET('/api/v1/tables'))).items
   }
 

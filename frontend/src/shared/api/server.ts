@@ -489,6 +489,6 @@ export class Server {
   }
 }
 
-function side(told: ComparedSide) {
-  return { table: 'first' as const, ...told }
+function side(side_of_pair: ComparedSide) {
+  return { table: 'first' as const, ...side_of_pair }
 }

@@ -10,7 +10,7 @@ class TusServer implements HttpStack {
   received = new Uint8Array()
   polls = 0
   hash: string | null = null
-  known: object[] = []
+  existing: object[] = []
   begun: string[] = []
   readonly steps: UploadSteps
 
@@ -55,7 +55,7 @@ class TusServer implements HttpStack {
       'upload-offset': String(this.received.length),
       'upload-length': String(bytes.length),
     }
-    if (url.includes('sha256=')) return Response.json({ items: this.known, next: null })
+    if (url.includes('sha256=')) return Response.json({ items: this.existing, next: null })
     if (init.method === 'POST') {
       this.begun.push(new Headers(init.headers).get('upload-metadata') ?? '')
       return new Response(null, { status: 201, headers: { location: '/api/v1/uploads/1' } })
@@ -107,7 +107,7 @@ it('sends nothing of what is here already, and says what it will hash to of the 
   const server = new TusServer([])
   server.hash = 'ab'.repeat(32)
   await uploadFile(file, () => undefined, server.steps)
-  server.known = [{ ride_ids: [], parts: null }, { ride_ids: [7], parts: null }]
+  server.existing = [{ ride_ids: [], parts: null }, { ride_ids: [7], parts: null }]
 
   const upload = await uploadFile(file, () => undefined, server.steps)
 

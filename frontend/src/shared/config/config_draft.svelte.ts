@@ -3,11 +3,11 @@ import { Refusal } from '../api/client'
 import type { Server } from '../api/server'
 import type { ConfigChange, Device, Parameter, ParameterValue } from '../api/types'
 import { differing, rebased, same } from './elements'
-import { keep, type Kept } from './kept_drafts'
+import { storeDraft, type StoredDraft } from './stored_drafts'
 import { isFactorys } from './ratchet'
 
 /** A unit and where it is; its key is null until it said who it is. */
-export type UnitThere = Pick<Device, 'id' | 'url' | 'unit_key'>
+export type UnitRef = Pick<Device, 'id' | 'url' | 'unit_key'>
 
 export type Edits = Readonly<Record<string, ParameterValue>>
 
@@ -39,8 +39,8 @@ export class ConfigDraft {
   private edits = $state.raw<Edits>({})
   /** What the unit had when the first of the edits was made; empty while there is none. */
   private begun = $state.raw<Edits>({})
-  /** When edits of an earlier visit were kept; null for those of this one. */
-  kept_at_ms = $state<number | null>(null)
+  /** When edits of an earlier visit were stored; null for those of this one. */
+  stored_at_ms = $state<number | null>(null)
   /** Why, as it is typed for the revision. */
   private why = $state('')
   private past = $state.raw<Edits[]>([])
@@ -53,24 +53,24 @@ export class ConfigDraft {
   unit_key: string | null
 
   constructor(
-    there: Pick<UnitThere, 'id' | 'unit_key'>,
+    unit: Pick<UnitRef, 'id' | 'unit_key'>,
     private readonly server: Server,
-    /** Under which it is kept in this browser; empty for nowhere. */
+    /** Under which it is stored in this browser; empty for nowhere. */
     private key = '',
-    kept: Kept | null = null,
+    stored: StoredDraft | null = null,
   ) {
-    this.device_id = there.id
-    this.unit_key = there.unit_key
-    if (!kept) return
-    this.baseline = this.begun = kept.base
-    this.edits = kept.edits
-    this.why = kept.reason
-    this.kept_at_ms = kept.at_ms
+    this.device_id = unit.id
+    this.unit_key = unit.unit_key
+    if (!stored) return
+    this.baseline = this.begun = stored.base
+    this.edits = stored.edits
+    this.why = stored.reason
+    this.stored_at_ms = stored.at_ms
   }
 
   /** The unit was given a name: it is the same one, and its tags are new. */
   rename(unit_key: string, key: string): void {
-    keep(this.key, null)
+    storeDraft(this.key, null)
     this.unit_key = unit_key
     this.key = key
     this.crc32 = null
@@ -93,14 +93,14 @@ export class ConfigDraft {
       that nothing can be written on it. */
   async recall(): Promise<void> {
     if (this.loaded) return
-    const known = await this.server.lastKnown(this.device_id)
+    const last = await this.server.lastKnown(this.device_id)
     if (this.loaded) return
     const values = Object.fromEntries(
-      known.parameters.flatMap(({ name, value }) => (value === null ? [] : [[name, value]])),
+      last.parameters.flatMap(({ name, value }) => (value === null ? [] : [[name, value]])),
     ) as Edits
-    const { unit_key, generation, crc32 } = known
+    const { unit_key, generation, crc32 } = last
     this.take({ unit_key, generation: generation ?? 0, crc32: crc32 ?? 0 }, values, '')
-    this.parameters = known.parameters
+    this.parameters = last.parameters
     this.crc32 = null
     this.loaded = true
   }
@@ -118,7 +118,7 @@ export class ConfigDraft {
   private take(stamp: ConfigStamp & { unit_key: string }, parameters: Edits, tag: string): void {
     this.unit_key ??= stamp.unit_key
     if (stamp.unit_key !== this.unit_key) {
-      const told = `This is for the unit ${this.unit_key}; another is there.`
+      const told = `This is for the unit ${this.unit_key}; another is unit.`
       throw new Refusal(412, 'other_unit', told)
     }
     const was = this.baseline
@@ -169,7 +169,7 @@ export class ConfigDraft {
   }
   set reason(text: string) {
     this.why = text
-    this.keep()
+    this.store()
   }
 
   /** What it would have: the edit, else what it has. */
@@ -317,16 +317,16 @@ export class ConfigDraft {
     const none = Object.keys(edits).length === 0
     if (none) this.begun = {}
     else if (Object.keys(this.begun).length === 0) this.begun = this.baseline
-    if (none) this.kept_at_ms = null
+    if (none) this.stored_at_ms = null
     this.edits = edits
-    this.keep()
+    this.store()
   }
 
-  private keep(): void {
+  private store(): void {
     if (!this.key) return
     const { edits, begun: base, why: reason } = this
-    const at_ms = this.kept_at_ms ?? Date.now()
-    keep(this.key, this.count > 0 ? { edits, base, reason, at_ms } : null)
+    const at_ms = this.stored_at_ms ?? Date.now()
+    storeDraft(this.key, this.count > 0 ? { edits, base, reason, at_ms } : null)
   }
 
   private without(name: string, value: ParameterValue | undefined): Edits {

@@ -4,7 +4,7 @@ import { afterEach, describe, expect, it, vi } from 'vitest'
 import { Refusal } from '../api/client'
 import type { Server } from '../api/server'
 import type { Parameter, ParameterValue } from '../api/types'
-import { ConfigDraft, type UnitThere } from './config_draft.svelte'
+import { ConfigDraft, type UnitRef } from './config_draft.svelte'
 import { Drafts } from './drafts'
 
 const parameter = (name: string): Parameter => ({
@@ -26,8 +26,8 @@ const parameter = (name: string): Parameter => ({
   description: '',
 })
 
-const A: UnitThere = { id: 'cable', url: 'socket://cable:1', unit_key: 'ebl:11' }
-const B: UnitThere = { ...A, unit_key: 'ebl:22' }
+const A: UnitRef = { id: 'cable', url: 'socket://cable:1', unit_key: 'ebl:11' }
+const B: UnitRef = { ...A, unit_key: 'ebl:22' }
 
 /** A server with one unit at a time, whose configuration can be changed behind the draft's back. */
 class FakeServer {
@@ -383,14 +383,14 @@ describe('an edit of a table', () => {
 
 /** What a browser keeps under names. */
 const storage = (): Storage => {
-  const kept = new Map<string, string>()
-  const told = {
-    getItem: (name: string) => kept.get(name) ?? null,
-    setItem: (name: string, value: string) => kept.set(name, value),
-    removeItem: (name: string) => kept.delete(name),
+  const entries = new Map<string, string>()
+  const methods = {
+    getItem: (name: string) => entries.get(name) ?? null,
+    setItem: (name: string, value: string) => entries.set(name, value),
+    removeItem: (name: string) => entries.delete(name),
   }
-  return new Proxy(told as unknown as Storage, {
-    ownKeys: () => [...kept.keys()],
+  return new Proxy(methods as unknown as Storage, {
+    ownKeys: () => [...entries.keys()],
     getOwnPropertyDescriptor: () => ({ enumerable: true, configurable: true }),
   })
 }
@@ -424,7 +424,7 @@ describe('a draft that is not written yet', () => {
 
     expect(again.value(RULES)).toEqual(table([0, 0, 'PB'], [4, 4, 'NS']))
     expect([again.reason, again.count, again.meanwhile]).toEqual(['quiet street', 1, 1])
-    expect(again.kept_at_ms).not.toBeNull()
+    expect(again.stored_at_ms).not.toBeNull()
   })
 
   it.each(['written', 'discarded', 'set back'])('is kept no longer once it is %s', async (how) => {

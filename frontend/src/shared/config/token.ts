@@ -8,8 +8,8 @@ const TOKEN_CHARACTERS = 144
 export function tokenIn(text: string): string | null {
   const joined = text.replace(/^0x/i, '').replace(/\s+/g, '')
   if (/^[0-9a-f]+$/i.test(joined)) return joined.length === TOKEN_CHARACTERS ? joined : null
-  const found = (text.match(/[0-9a-f]+/gi) ?? []).filter((w) => w.length === TOKEN_CHARACTERS)
-  return found.length === 1 ? (found[0] ?? null) : null
+  const tokens = (text.match(/[0-9a-f]+/gi) ?? []).filter((w) => w.length === TOKEN_CHARACTERS)
+  return tokens.length === 1 ? (tokens[0] ?? null) : null
 }
 
 /** What is handed to the maker: the text that `spindle unlock sign` reads. */

@@ -96,7 +96,7 @@ export function impossible(draft: ConfigDraft, names: string[]): boolean {
 }
 
 /** The whole configuration as edited; null while a value of it is impossible. */
-export function wholeOf(draft: ConfigDraft): Edits | null {
+export function completeConfig(draft: ConfigDraft): Edits | null {
   if (!draft.loaded || impossible(draft, draft.parameters.map(({ name }) => name))) return null
   return draft.values
 }
@@ -143,7 +143,7 @@ export function surroundings(draft: ConfigDraft): Omit<LintRequest, 'fuzzy_table
   const names = (group: string) => draft.group(group).map((parameter) => parameter.name)
   const limits = [...names('limits'), ...names('market')]
   const modes_possible = !impossible(draft, names('assist'))
-  const gear_known = !impossible(draft, ['gear_ratio'])
+  const has_gear = !impossible(draft, ['gear_ratio'])
   return {
     assist_modes: modes_possible ? modesFrom((name) => draft.value(name)) : null,
     limits: impossible(draft, limits)
@@ -155,6 +155,6 @@ export function surroundings(draft: ConfigDraft): Omit<LintRequest, 'fuzzy_table
           draft.value('fixed_taper_end_kmh') as number,
         ]
       : null,
-    gear_ratio: gear_known ? (draft.value('gear_ratio') as number) : null,
+    gear_ratio: has_gear ? (draft.value('gear_ratio') as number) : null,
   }
 }

@@ -8,7 +8,7 @@ const PERIOD_MS = 1000
 
 export class DeviceWatch {
   items = $state.raw<Device[]>([])
-  known = $state(false) // false until the server answered once
+  loaded = $state(false) // false until the server answered once
   unreachable = $state(false)
   chosen_id = $state<string | null>(null)
   /** The unit in whose place another one is, as it was last seen; null once it is back or its
@@ -87,7 +87,7 @@ export class DeviceWatch {
       const serial = this.chosen_id
       const chosen = items.find((d) => serial && d.identity?.serial_number === serial)
       if (chosen) this.chosen_id = chosen.id
-      this.known = true
+      this.loaded = true
       this.unreachable = false
     } catch (error) {
       if (!(error instanceof Refusal)) throw error

@@ -8,9 +8,9 @@ function device(id: string, serial_number: string | null): Device {
   return { id, state: 'ready', identity: { serial_number } } as Device
 }
 
-async function watching(kept: string | null): Promise<DeviceWatch> {
+async function watching(stored: string | null): Promise<DeviceWatch> {
   const items = [device('sim', null), device('sim-two', '0042')]
-  const watch = new DeviceWatch({ devices: async () => items } as unknown as Server, kept)
+  const watch = new DeviceWatch({ devices: async () => items } as unknown as Server, stored)
   await watch.refresh()
   return watch
 }
@@ -45,13 +45,13 @@ describe('a unit that is plugged into another port', () => {
 })
 
 describe('another unit in the place of the one that was there', () => {
-  const there = (unit_key: string | null) => [{ ...device('cable', null), unit_key }]
+  const devices = (unit_key: string | null) => [{ ...device('cable', null), unit_key }]
 
   async function seeing(...keys: (string | null)[]): Promise<DeviceWatch> {
     let items: Device[] = []
     const watch = new DeviceWatch({ devices: async () => items } as unknown as Server, null)
     for (const key of keys) {
-      items = there(key)
+      items = devices(key)
       await watch.refresh()
     }
     return watch

@@ -10,8 +10,8 @@ export class FirstSteps {
   put_away = $state(false)
 
   /** `kept` is what `toJSON` gave before; anything unreadable counts as nothing done. */
-  constructor(kept: unknown) {
-    const { done, put_away } = (kept ?? {}) as { done?: unknown; put_away?: unknown }
+  constructor(stored: unknown) {
+    const { done, put_away } = (stored ?? {}) as { done?: unknown; put_away?: unknown }
     if (Array.isArray(done)) this.done = FIRST_STEPS.filter((step) => done.includes(step))
     this.put_away = put_away === true
   }

@@ -30,9 +30,9 @@ export const TERMS = [
 export type Term = (typeof TERMS)[number]
 
 /** A word, all of them, or the keys. */
-export type Asked = Term | 'words' | 'keys'
+export type HelpTopic = Term | 'words' | 'keys'
 
 export class Help {
   /** Null while nothing is asked. */
-  asked = $state.raw<Asked | null>(null)
+  topic = $state.raw<HelpTopic | null>(null)
 }

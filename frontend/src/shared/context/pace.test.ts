@@ -32,9 +32,9 @@ it('stays below 100 in 30 s, and goes on while the hand moves', () => {
 
 it('asks one at a time: a slow answer is waited for, then the newest is asked', async () => {
   const pace = new Pace(40)
-  const asked: number[] = []
+  const requests: number[] = []
   const answer = (i: number) => () => {
-    asked.push(i)
+    requests.push(i)
     return new Promise<void>((resolve) => setTimeout(resolve, 200))
   }
 
@@ -44,7 +44,7 @@ it('asks one at a time: a slow answer is waited for, then the newest is asked', 
   }
   await vi.advanceTimersByTimeAsync(200)
 
-  expect(asked).toEqual([0, 6, 9])
+  expect(requests).toEqual([0, 6, 9])
 })
 
 it('does nothing after its end', () => {

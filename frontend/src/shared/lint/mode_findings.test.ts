@@ -20,9 +20,9 @@ it('tells a mode and a limit once, and nothing that is of a table', () => {
     finding('cutoff_above_market', 'assist_cutoff_kmh'),
   )
 
-  const told = modeFindings([first, second]).warnings.map(({ code, where }) => [code, where])
+  const places = modeFindings([first, second]).warnings.map(({ code, where }) => [code, where])
 
-  expect(told).toEqual([
+  expect(places).toEqual([
     ['demand_beyond_motor', 'modes[3]'],
     ['cutoff_above_market', 'assist_cutoff_kmh'],
     ['demand_beyond_motor', 'modes[4].ratio'],

@@ -20,10 +20,10 @@ export function modeQuestions(draft: ConfigDraft): LintRequest[] {
 /** Each finding about a mode, a limit or the market once, however many tables it was found with. */
 export function modeFindings(reports: readonly LintReport[]): LintReport {
   const only = (kind: keyof LintReport) => {
-    const found = reports
+    const findings = reports
       .flatMap((report) => report[kind])
       .filter(({ where }) => /^(modes\[\d+\].*|(?!modes$)[a-z_]+)$/.test(where ?? ''))
-    return [...new Map(found.map((one) => [`${one.code} ${one.where}`, one])).values()]
+    return [...new Map(findings.map((one) => [`${one.code} ${one.where}`, one])).values()]
   }
   return { errors: only('errors'), warnings: only('warnings'), notes: only('notes') }
 }

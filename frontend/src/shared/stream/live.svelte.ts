@@ -134,7 +134,7 @@ export class LiveStream {
     })
   }
 
-  private heard(): void {
+  private markAlive(): void {
     this.failures = 0
     this.stopPolling?.()
     this.stopPolling = null
@@ -163,7 +163,7 @@ export class LiveStream {
 
   private receiveText(text: string): void {
     const message = JSON.parse(text) as StreamHeader | StreamState | StreamError
-    this.heard()
+    this.markAlive()
     if (message.type === 'stream') {
       this.begin(message)
     } else if (message.type === 'state') {

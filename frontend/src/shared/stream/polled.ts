@@ -19,14 +19,14 @@ export interface Fed {
 
 /** Feeds `fed` until the returned function is called. `ask` throws while there is no answer; what
     is no newer than what was there is not given on, so that it looks as old as it is. */
-export function poll(fed: Fed, names: string[], ask: () => Promise<Newest>): () => void {
+export function poll(fed: Fed, names: string[], fetchNewest: () => Promise<Newest>): () => void {
   let timer: ReturnType<typeof setTimeout> | undefined
   let stopped = false
   let seen_us: number | null = null
 
   async function turn() {
     const began_ms = performance.now()
-    const newest = document.hidden ? null : await ask().catch(() => null)
+    const newest = document.hidden ? null : await fetchNewest().catch(() => null)
     if (stopped) return
     if (newest && newest.t_us !== seen_us) {
       if (seen_us === null) fed.begin(header(names))

@@ -30,14 +30,14 @@ export function withPart(parts: readonly Part[], part: Part): Part[] {
 
 /** As it is asked: without a height of its own, by the ride's. */
 export function asSlope({ ride_id, from_s, to_s, rise_m }: Part): Slope {
-  const told = rise_m !== null && Number.isFinite(rise_m)
-  return { ride_id, from_s, to_s, rise_m: told ? rise_m : null }
+  const terms = rise_m !== null && Number.isFinite(rise_m)
+  return { ride_id, from_s, to_s, rise_m: terms ? rise_m : null }
 }
 
 /** What gave and what took, each by itself: legs and motor are never added. */
 export function barsOf({ balance }: ClimbResult): Bar[] {
   const { needed } = balance
-  const told: [Bar['key'], number | null][] = [
+  const terms: [Bar['key'], number | null][] = [
     ['legs', balance.crank_energy_j],
     ['motor', balance.motor_energy_j],
     ['gravity', needed.gravity_j],
@@ -46,8 +46,8 @@ export function barsOf({ balance }: ClimbResult): Bar[] {
     ['air', needed.air_j],
     ['drivetrain', needed.drivetrain_j],
   ]
-  const most = Math.max(...told.map(([, joules]) => Math.abs(joules ?? 0)), 1)
-  return told.map(([key, joules]) => ({
+  const most = Math.max(...terms.map(([, joules]) => Math.abs(joules ?? 0)), 1)
+  return terms.map(([key, joules]) => ({
     key,
     wh: joules === null ? null : joules / J_PER_WH,
     share: Math.abs(joules ?? 0) / most,

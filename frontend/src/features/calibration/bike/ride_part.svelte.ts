@@ -19,7 +19,7 @@ export class BikeRides {
   loaded = $state(false)
   /** Of the next page of rides; null behind the last. */
   next = $state<string | null>(null)
-  trouble = $state.raw<Refusal | null>(null)
+  problem = $state.raw<Refusal | null>(null)
 
   constructor(private readonly server: Server) {}
 
@@ -39,17 +39,17 @@ export class BikeRides {
   private async fetch(cursor: string | undefined, then: (page: RideList) => void): Promise<void> {
     try {
       const page = await this.server.rides(cursor)
-      const known = this.items.map(({ id }) => id)
+      const existing = this.items.map(({ id }) => id)
       const fresh = page.items.filter(
-        ({ id, state, damage }) => !known.includes(id) && state === 'done' && !damage,
+        ({ id, state, damage }) => !existing.includes(id) && state === 'done' && !damage,
       )
       const newest = (a: Ride, b: Ride) => b.started_at.localeCompare(a.started_at)
       if (fresh.length > 0) this.items = [...this.items, ...fresh].sort(newest)
-      this.trouble = null
+      this.problem = null
       then(page)
     } catch (error) {
       if (!(error instanceof Refusal)) throw error
-      this.trouble = error
+      this.problem = error
     }
   }
 }
@@ -75,10 +75,10 @@ export class RidePart {
   }
 
   /** The part as it is asked about; without ends, all of it. */
-  get asked(): { ride_id: number; from_s: number | null; to_s: number | null } | null {
+  get selection(): { ride_id: number; from_s: number | null; to_s: number | null } | null {
     if (!this.ride) return null
-    const { window, whole } = this.view ?? { window: null, whole: true }
-    const ends = whole || !window ? { from_s: null, to_s: null } : window
+    const { window, is_complete } = this.view ?? { window: null, is_complete: true }
+    const ends = is_complete || !window ? { from_s: null, to_s: null } : window
     return { ride_id: this.ride.id, ...ends }
   }
 

@@ -17,7 +17,7 @@ test('what the device stated has a name in words and a unit of the pages', () =>
     { name: 'avg_vam', value: 0.25, unit: 'm/s' },
     { name: 'total_distance', value: 78940, unit: 'm' },
     { name: 'total_timer_time', value: 3661, unit: 's' },
-  ].map((stated) => `${nameOf(stated, say)}: ${valueOf(stated, locale)}`)
+  ].map((figure) => `${nameOf(figure, say)}: ${valueOf(figure, locale)}`)
 
   expect(shown).toEqual([
     'Battery used: 34.50 %',
@@ -30,8 +30,8 @@ test('what the device stated has a name in words and a unit of the pages', () =>
 })
 
 test('what nobody knows keeps its name and has no unit', () => {
-  const stated = { name: 'unknown_177', value: 400, unit: '' }
+  const figure = { name: 'unknown_177', value: 400, unit: '' }
 
-  expect(nameOf(stated, say)).toBe('unknown_177')
-  expect(valueOf(stated, locale)).toBe('400')
+  expect(nameOf(figure, say)).toBe('unknown_177')
+  expect(valueOf(figure, locale)).toBe('400')
 })

@@ -18,7 +18,7 @@ export class ReplayRun {
 
   constructor(private readonly server: Server) {}
 
-  ask(ride_id: number, parameters: Settings): Promise<void> {
+  request(ride_id: number, parameters: Settings): Promise<void> {
     return this.newest.request(async (signal) => {
       const replay = await this.server.replay(ride_id, { mode: 'open_loop', parameters }, signal)
       signal.throwIfAborted()

@@ -5,7 +5,7 @@ import { Pace } from '$shared/context/pace'
 
 const PACE_MS = 40 // a drag asks this often at most
 // A head unit's row holds until the next one; a longer silence is a gap.
-const HELD_S = 10
+const ROW_S_MAX = 10
 
 export class CursorReading {
   /** By channel; null where nothing is told. The whole is null until the first answer. */
@@ -30,18 +30,18 @@ export class CursorReading {
   private async fetch(t_s: number): Promise<void> {
     const { signal } = this.left
     const { channels, period_us } = this.ride
-    const held_s = period_us === null ? HELD_S : period_us / 1e6
-    const window = { from_s: Math.max(0, t_s - held_s + 1e-6), to_s: t_s, px: 2000 }
+    const row_s = period_us === null ? ROW_S_MAX : period_us / 1e6
+    const window = { from_s: Math.max(0, t_s - row_s + 1e-6), to_s: t_s, px: 2000 }
     const names = channels.map(({ name }) => name)
     try {
       const series = await this.server.series(this.ride.id, names, window, signal)
       if (signal.aborted) return
       const row = series.t_first_s.length - 1
-      const told = series.channels.map(({ name, min }) => {
+      const values = series.channels.map(({ name, min }) => {
         const value = min[row] ?? NaN
         return [name, Number.isNaN(value) ? null : value] as const
       })
-      this.values = Object.fromEntries(told)
+      this.values = Object.fromEntries(values)
     } catch {
       if (!signal.aborted) this.values = null // the traces say what is wrong
     }

@@ -53,8 +53,8 @@ export function rowsFor(
   const shown: TraceRow[] = []
   const missing: string[] = []
   for (const row of rows) {
-    const found = [row, row.instead].flatMap((r) => (r ? [has(r)] : [])).find((r) => r.lines.length)
-    if (found) shown.push(found)
+    const match = [row, row.instead].flatMap((r) => (r ? [has(r)] : [])).find((r) => r.lines.length)
+    if (match) shown.push(match)
     else if (expected.includes(row.key)) missing.push(row.key)
   }
   return { shown, missing }

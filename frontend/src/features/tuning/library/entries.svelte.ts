@@ -11,7 +11,7 @@ import type {
 
 export class Entries {
   rows = $state.raw<LibraryRow[] | null>(null)
-  trouble = $state.raw<Refusal | null>(null)
+  problem = $state.raw<Refusal | null>(null)
   /** By ETag, so that a changed entry is measured anew; null for one that cannot be. */
   feels = $state.raw<Record<string, Feel | null>>({})
   private measuring = false
@@ -21,10 +21,10 @@ export class Entries {
   async load(): Promise<void> {
     try {
       this.rows = await this.server.library()
-      this.trouble = null
+      this.problem = null
     } catch (error) {
       if (!(error instanceof Refusal)) throw error
-      this.trouble = error
+      this.problem = error
     }
     void this.measure()
   }

@@ -7,8 +7,8 @@ const PACE_MS = 200 // an eye follows no more
 
 export class Firing {
   private readonly newest = new NewestAnswer<Why>()
-  private asked_ms = -Infinity
-  private timer: ReturnType<typeof setTimeout> | null = null
+  private last_ms = -Infinity
+  private timer: ReturnType<typeof setTimeout> | undefined
 
   constructor(private readonly server: Server) {}
 
@@ -19,22 +19,20 @@ export class Firing {
   }
 
   /** The place that the bike is at, with the tables as edited; null where nobody knows. */
-  ask(state: WhyRequest | null): void {
-    if (this.timer) clearTimeout(this.timer)
+  request(state: WhyRequest | null): void {
+    clearTimeout(this.timer)
     if (!state) {
-      this.newest.stop()
-      this.newest.value = null
+      this.newest.forget()
       return
     }
-    const wait_ms = this.asked_ms + PACE_MS - performance.now()
     this.timer = setTimeout(() => {
-      this.asked_ms = performance.now()
+      this.last_ms = performance.now()
       void this.newest.request((signal) => this.server.whySteady(null, state, signal))
-    }, Math.max(0, wait_ms))
+    }, this.last_ms + PACE_MS - performance.now())
   }
 
   stop(): void {
-    if (this.timer) clearTimeout(this.timer)
+    clearTimeout(this.timer)
     this.newest.stop()
   }
 }

@@ -23,7 +23,7 @@ export class RuleFeelPreview {
   }
 
   /** One point of the draft and of the unit; unit: null where that has no such mode. */
-  async ask(draft: TorqueSurfaceRequest, unit: TorqueSurfaceRequest | null): Promise<void> {
+  async request(draft: TorqueSurfaceRequest, unit: TorqueSurfaceRequest | null): Promise<void> {
     await this.newest.request(async (signal) => {
       const [drafted, stored] = await Promise.all([
         this.server.torqueSurface(draft, signal),

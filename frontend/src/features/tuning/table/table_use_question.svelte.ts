@@ -16,15 +16,15 @@ export class TableUseQuestion {
   constructor(private readonly server: Server) {}
 
   /** Of the points asked for last, or while those are looked up of the ones before. */
-  get found(): TableUse | null {
+  get use(): TableUse | null {
     return this.newest.value
   }
 
-  get trouble(): Refusal | null {
+  get problem(): Refusal | null {
     return this.newest.refusal
   }
 
-  async ask(question: TableUseRequest): Promise<void> {
+  async request(question: TableUseRequest): Promise<void> {
     // What another unit's rides say is not kept on show.
     if (this.device !== question.device) {
       this.newest.value = null
@@ -35,9 +35,9 @@ export class TableUseQuestion {
     await this.newest.request(async (signal) => {
       if (rest_ms) await new Promise((rested) => setTimeout(rested, rest_ms))
       signal.throwIfAborted()
-      const found = await this.server.tableUse(question, signal)
+      const use = await this.server.tableUse(question, signal)
       this.answered = true
-      return found
+      return use
     })
   }
 

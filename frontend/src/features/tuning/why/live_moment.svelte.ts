@@ -8,7 +8,7 @@ export class LiveMoment {
   /** The ride that goes on; null while none does. */
   ride = $state.raw<Ride | null>(null)
   t_s = $state(0)
-  looked = $state(false)
+  loaded = $state(false)
   private readonly newest = new NewestAnswer<Why>()
 
   constructor(private readonly server: Server) {}
@@ -22,9 +22,9 @@ export class LiveMoment {
   }
 
   /** Explains what was recorded last. Waits for one answer before it asks again. */
-  async look(unit_key: string | null): Promise<void> {
+  async refresh(unit_key: string | null): Promise<void> {
     const [newest] = unit_key === null ? [] : await this.server.latestRides(unit_key, 1)
-    this.looked = true
+    this.loaded = true
     this.ride = newest?.state === 'live' ? newest : null
     if (!this.ride) return
     const { id, row_count, period_us } = this.ride

@@ -10,9 +10,9 @@ export class RideMoment {
   ride = $state.raw<Ride | null>(null)
   cuts = $state.raw<Cut[]>([])
   t_s = $state(0)
-  private trouble = $state.raw<Refusal | null>(null)
+  private problem = $state.raw<Refusal | null>(null)
   private readonly newest = new NewestAnswer<Why>()
-  private asked_ms = -Infinity
+  private last_ms = -Infinity
   private timer: ReturnType<typeof setTimeout> | null = null
 
   constructor(private readonly server: Server) {}
@@ -24,13 +24,13 @@ export class RideMoment {
       if (id === null) return
       const [ride, cuts] = await Promise.all([this.server.ride(id), this.server.cuts(id)])
       this.ride = ride
-      this.trouble = null
+      this.problem = null
       if (this.unknown) return
       this.cuts = cuts
       this.move(t_s ?? cuts[0]?.at_s ?? this.end_s / 2)
     } catch (error) {
       if (!(error instanceof Refusal)) throw error
-      this.trouble = error
+      this.problem = error
     }
   }
 
@@ -39,7 +39,7 @@ export class RideMoment {
   }
 
   get refused(): Refusal | null {
-    return this.trouble ?? this.newest.refusal
+    return this.problem ?? this.newest.refusal
   }
 
   /** Nobody knows with which configuration the ride was made: nothing of it is explained. */
@@ -59,19 +59,19 @@ export class RideMoment {
   readonly move = (t_s: number): void => {
     this.t_s = Math.max(0, Math.min(t_s, this.end_s))
     if (this.timer) clearTimeout(this.timer)
-    const wait_ms = this.asked_ms + PACE_MS - performance.now()
-    this.timer = setTimeout(() => void this.ask(), Math.max(0, wait_ms))
+    const wait_ms = this.last_ms + PACE_MS - performance.now()
+    this.timer = setTimeout(() => void this.request(), Math.max(0, wait_ms))
   }
 
   /** To the next cut, or of the one before. False where there is none. */
   toCut(forwards: boolean): boolean {
     const here = this.cut
     const others = this.cuts.filter((cut) => cut !== here)
-    const found = forwards
+    const cut = forwards
       ? others.find(({ from_s }) => from_s > this.t_s)
       : others.findLast(({ to_s }) => to_s <= this.t_s)
-    if (found) this.move(found.at_s)
-    return found !== undefined
+    if (cut) this.move(cut.at_s)
+    return cut !== undefined
   }
 
   stop(): void {
@@ -81,13 +81,13 @@ export class RideMoment {
 
   private async latest(): Promise<number | null> {
     const { items } = await this.server.rides()
-    const told = items.filter(({ state, device }) => state === 'done' && device.config_crc32)
-    return told[0]?.id ?? null
+    const explainable = items.filter(({ state, device }) => state === 'done' && device.config_crc32)
+    return explainable[0]?.id ?? null
   }
 
-  private async ask(): Promise<void> {
+  private async request(): Promise<void> {
     if (!this.ride) return
-    this.asked_ms = performance.now()
+    this.last_ms = performance.now()
     const [id, t_s] = [this.ride.id, this.t_s]
     await this.newest.request((signal) => this.server.whyOfRide(id, t_s, signal))
   }

@@ -13,7 +13,7 @@ export class SteadyState {
   constructor(private readonly server: Server) {}
 
   /** device_id: whose configuration; null for the firmware's. */
-  ask(device_id: string | null, state: WhyRequest): void {
+  request(device_id: string | null, state: WhyRequest): void {
     if (this.timer) clearTimeout(this.timer)
     this.timer = setTimeout(
       () => void this.newest.request((signal) => this.server.whySteady(device_id, state, signal)),

@@ -7,7 +7,7 @@ import { Locale } from '$shared/i18n/locale.svelte'
 import { Units } from '$shared/units/units.svelte'
 import { expect, it } from 'vitest'
 import { gainShape } from './gain_shape'
-import { askedNm, rowValue, sentence, tableCannotHelp, takers, waterfall } from './steps'
+import { demandedNm, rowValue, sentence, tableCannotHelp, takers, waterfall } from './steps'
 import en from '$messages/en/why.json'
 import { words, type Key } from './words'
 import zh from '$messages/zh/why.json'
@@ -108,8 +108,8 @@ it.each([
     },
     'You got all that Boost requested: 20\u00a0Nm.',
   ],
-])('%o', (changes, told) => {
-  expect(sentence(why(changes), say, units)).toBe(told)
+])('%o', (changes, expected) => {
+  expect(sentence(why(changes), say, units)).toBe(expected)
 })
 
 it('puts what the law asks before the clamps, each bar where the one before ended', () => {
@@ -118,7 +118,7 @@ it('puts what the law asks before the clamps, each bar where the one before ende
   expect(rows.map(({ kind }) => kind).join(' ')).toBe(
     'rider law law asked clamp clamp clamp clamp clamp clamp given',
   )
-  expect(askedNm(why())).toBeCloseTo(119.4)
+  expect(demandedNm(why())).toBeCloseTo(119.4)
   for (const [i, row] of rows.entries()) {
     const before = rows[i - 1]
     if (before && row.kind !== 'asked' && row.kind !== 'given') {
@@ -147,7 +147,7 @@ it('clips each set at the hardest of its rules', () => {
 })
 
 it('says the same with the same values in both languages', () => {
-  const holes = (text: string) => [...text.matchAll(/\{(\w+)\}/g)].map((found) => found[1]).sort()
+  const holes = (text: string) => [...text.matchAll(/\{(\w+)\}/g)].map((match) => match[1]).sort()
 
   for (const [key, text] of Object.entries(en)) {
     expect([key, holes(zh[key as Key])]).toEqual([key, holes(text)])

@@ -25,7 +25,7 @@ export function waterfall(why: Why): Row[] {
   const rows: Row[] = []
   const power = (torque_nm: number) =>
     why.crank_rad_per_s === null ? null : torque_nm * why.crank_rad_per_s
-  const whole = (name: string, kind: Kind, torque_nm: number) =>
+  const addTotal = (name: string, kind: Kind, torque_nm: number) =>
     rows.push({ name, kind, from_nm: 0, to_nm: torque_nm, torque_nm, power_w: power(torque_nm) })
   let at_nm = 0
   for (const [i, { name, torque_nm, power_w }] of why.steps.entries()) {
@@ -34,16 +34,16 @@ export function waterfall(why: Why): Row[] {
     rows.push({ name, kind, from_nm: at_nm, to_nm, torque_nm, power_w })
     at_nm = to_nm
     const next = why.steps[i + 1]
-    if (kind !== 'clamp' && next && !LAW.includes(next.name)) whole('asked', 'asked', at_nm)
+    if (kind !== 'clamp' && next && !LAW.includes(next.name)) addTotal('asked', 'asked', at_nm)
   }
   const delivered = why.delivered_nm
-  if (delivered === null) whole('commanded', 'given', why.commanded_nm)
-  else whole('delivered', 'given', delivered)
+  if (delivered === null) addTotal('commanded', 'given', why.commanded_nm)
+  else addTotal('delivered', 'given', delivered)
   return rows
 }
 
 /** What the law asked for, before anything was taken from it. */
-export function askedNm(why: Why): number {
+export function demandedNm(why: Why): number {
   return waterfall(why).find((row) => row.kind === 'asked')?.to_nm ?? 0
 }
 
@@ -68,22 +68,22 @@ export function sentence(why: Why, say: Say, units: Units): string {
   if (why.result !== 'ok') return say(why.result === 'input_refused' ? 'refused' : 'lost')
   const mode = why.law === 'walk' ? say('walk') : named(why.mode_name)
   if (why.law === 'off') return say('off', { mode })
-  const asked_nm = askedNm(why)
-  if (asked_nm < TELLING_NM) return say('asked_nothing', { mode })
-  const given_nm = why.delivered_nm ?? why.commanded_nm
-  const asked = units.text(asked_nm, 'Nm', 0)
-  const given = units.text(given_nm, 'Nm', 0)
+  const demanded_nm = demandedNm(why)
+  if (demanded_nm < TELLING_NM) return say('asked_nothing', { mode })
+  const delivered_nm = why.delivered_nm ?? why.commanded_nm
+  const demanded = units.text(demanded_nm, 'Nm', 0)
+  const delivered = units.text(delivered_nm, 'Nm', 0)
   const taken = takers(why)
   if (taken.length === 0) {
-    const told = why.delivered_nm === null ? 'uncut_told' : 'uncut'
-    return say(given === asked ? told : 'uncut_short', { mode, asked, given })
+    const uncut = why.delivered_nm === null ? 'uncut_told' : 'uncut'
+    return say(delivered === demanded ? uncut : 'uncut_short', { mode, demanded, delivered })
   }
-  const told = say(why.delivered_nm === null ? 'asked_commanded' : 'asked_arrived', {
+  const main = say(why.delivered_nm === null ? 'asked_commanded' : 'asked_arrived', {
     mode,
-    asked,
-    given,
+    demanded,
+    delivered,
   })
-  return `${told} ${whoTook(taken, say, units)}`
+  return `${main} ${whoTook(taken, say, units)}`
 }
 
 function whoTook([first, second]: Row[], say: Say, units: Units): string {

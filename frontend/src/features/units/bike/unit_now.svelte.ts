@@ -4,7 +4,7 @@ import type { Dashboard } from '$shared/api/types'
 import { DashboardWatch } from '$shared/context/dashboard_watch.svelte'
 import { LiveStream, type Instead } from '$shared/stream/live.svelte'
 
-const KEPT = 61 // a minute
+const SAMPLES_MAX = 61 // a minute
 const CHANNELS = [
   'rider_torque_nm',
   'speed_kmh',
@@ -24,8 +24,8 @@ export class UnitNow {
 
   constructor(server: Server, instead: Instead, device_id: string) {
     this.summed = new DashboardWatch(server, device_id, (values) => this.note(values))
-    const asked = { device_id, channels: CHANNELS, rate_hz: 2, window_s: 1 }
-    this.stream = new LiveStream(asked, instead)
+    const options = { device_id, channels: CHANNELS, rate_hz: 2, window_s: 1 }
+    this.stream = new LiveStream(options, instead)
   }
 
   get dashboard(): Dashboard | null {
@@ -53,6 +53,6 @@ export class UnitNow {
       rider_w: values?.rider_power_w ?? null,
       motor_w: values?.motor_power_w ?? null,
     }
-    this.powers = [...this.powers.slice(1 - KEPT), now]
+    this.powers = [...this.powers.slice(1 - SAMPLES_MAX), now]
   }
 }

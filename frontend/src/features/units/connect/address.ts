@@ -14,7 +14,7 @@ export function addressKind(address: string): AddressKind | null {
   return url.includes('://') ? 'not_a_way' : 'serial'
 }
 
-export function isWay(kind: AddressKind | null): boolean {
+export function isConnectable(kind: AddressKind | null): boolean {
   return kind === 'simulated' || kind === 'socket' || kind === 'serial'
 }
 

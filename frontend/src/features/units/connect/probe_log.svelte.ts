@@ -15,7 +15,7 @@ const LINES = 8
 
 /** Notes a connection's state and reason whenever one of them is new. */
 export class ProbeLog {
-  private kept = $state.raw<Readonly<Record<string, readonly ProbeLine[]>>>({})
+  private lines_of = $state.raw<Readonly<Record<string, readonly ProbeLine[]>>>({})
   private begun_ms: Readonly<Record<string, number>> = {}
 
   note(device: Device, now_ms: number): void {
@@ -27,18 +27,18 @@ export class ProbeLog {
     this.begun_ms = { ...this.begun_ms, [id]: begun_ms }
     const number = (last?.number ?? 0) + 1
     const line = { number, after_s: (now_ms - begun_ms) / 1000, state, reason, reason_code }
-    this.kept = { ...this.kept, [id]: [...before, line].slice(-LINES) }
+    this.lines_of = { ...this.lines_of, [id]: [...before, line].slice(-LINES) }
   }
 
   /** A connection is asked for anew: its log begins again. */
   begin(device: Device, now_ms: number): void {
     this.begun_ms = { ...this.begun_ms, [device.id]: now_ms }
-    this.kept = { ...this.kept, [device.id]: [] }
+    this.lines_of = { ...this.lines_of, [device.id]: [] }
     this.note(device, now_ms)
   }
 
   of(id: string): readonly ProbeLine[] {
-    return this.kept[id] ?? []
+    return this.lines_of[id] ?? []
   }
 }
 

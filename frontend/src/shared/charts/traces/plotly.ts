@@ -29,7 +29,7 @@ export async function loadTraceChart() {
 }
 
 /** Colours and type of a chart, from the style sheet. */
-export function plotLook(theme: Theme): { font: object; axis: object; base: object } {
+export function plotStyle(theme: Theme): { font: object; axis: object; base: object } {
   const ink = theme.colour('ink-2')
   const font = {
     family: '-apple-system, "Segoe UI", Roboto, "Noto Sans", "Noto Sans CJK SC", sans-serif',

@@ -13,7 +13,7 @@ export interface TraceLine {
   /** Its name beside the others of its row, where it is not the channel's. */
   name?: string
   /** Told apart by more than its colour. */
-  look?: 'broad' | 'dashed'
+  style?: 'broad' | 'dashed'
 }
 
 export interface TraceRow {

@@ -23,7 +23,7 @@ export class TraceWindow {
     this.window = this.inside(window ?? { from_s: 0, to_s: duration_s })
   }
 
-  get whole(): boolean {
+  get is_complete(): boolean {
     return this.window.from_s <= 0 && this.window.to_s >= this.duration_s
   }
 

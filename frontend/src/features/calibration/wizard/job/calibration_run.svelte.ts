@@ -15,7 +15,7 @@ export class CalibrationRun {
   refused = $state.raw<Refusal | null>(null)
   /** The server does not answer. */
   lost = $state(false)
-  private readonly polling = new PollWhileVisible(() => this.look(), READING_MS)
+  private readonly polling = new PollWhileVisible(() => this.poll(), READING_MS)
 
   constructor(
     job: Job,
@@ -62,7 +62,7 @@ export class CalibrationRun {
     }
   }
 
-  private async look(): Promise<void> {
+  private async poll(): Promise<void> {
     if (this.job.state === 'closed') return
     const was_lost = this.lost
     try {

@@ -29,16 +29,16 @@ it('a torque is in the reader’s units', () => {
 })
 
 it('what turns is told with its unit, what nobody tells with a dash', () => {
-  const told = check('standing', null, { values: { wheel_kmh: 10, cadence_rpm: 60 } })
+  const finding = check('standing', null, { values: { wheel_kmh: 10, cadence_rpm: 60 } })
 
-  expect(sentenceOf(english, imperial, told)).toMatch(/wheel 6\.2\smph, crank 60\srpm, motor —/)
+  expect(sentenceOf(english, imperial, finding)).toMatch(/wheel 6\.2\smph, crank 60\srpm, motor —/)
 })
 
 it('faults have their names', () => {
   const [one = '', two = ''] = Object.keys(FAULTS)
-  const told = check('faults', 2, { values: { names: `${one}, ${two}` } })
+  const finding = check('faults', 2, { values: { names: `${one}, ${two}` } })
 
-  expect(sentenceOf(english, metric, told)).toBe(`faults: ${faultList(english, [one, two])}`)
+  expect(sentenceOf(english, metric, finding)).toBe(`faults: ${faultList(english, [one, two])}`)
   expect(sentenceOf(english, metric, check('faults', 0, { values: { names: '' } }))).toBe(
     'faults: none',
   )

@@ -13,7 +13,7 @@ const picture: Picture = {
   ],
   top: 60,
   unit: 'Nm',
-  asked: null,
+  demanded: null,
   taken_by: null,
 }
 

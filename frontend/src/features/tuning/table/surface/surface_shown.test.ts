@@ -36,7 +36,7 @@ it('tells what arrives, what was asked, and which limit took the rest', () => {
   const picture = pictureOf('delivered_nm', gain, torque, 60)
 
   expect(picture?.z).toEqual(torque.delivered_nm)
-  expect(picture?.asked).toEqual(torque.demanded_nm)
+  expect(picture?.demanded).toEqual(torque.demanded_nm)
   expect(picture?.taken_by).toEqual([
     [[], ['market']],
     [['speed_cutoff'], ['speed_cutoff', 'market']],

@@ -4,7 +4,7 @@ export interface Place {
   torque_rate: number
 }
 
-const KEPT_MS = 10_000
+const TRAIL_MS = 10_000
 
 export class Trail {
   places = $state.raw<Place[]>([])
@@ -17,7 +17,7 @@ export class Trail {
     else if (last?.speed_kmh === place.speed_kmh && last.torque_rate === place.torque_rate) {
       last.at_ms = now_ms // a bike that stands adds nothing
     } else this.seen.push({ ...place, at_ms: now_ms })
-    this.seen = this.seen.filter(({ at_ms }) => now_ms - at_ms <= KEPT_MS)
+    this.seen = this.seen.filter(({ at_ms }) => now_ms - at_ms <= TRAIL_MS)
     this.places = [...this.seen]
   }
 }

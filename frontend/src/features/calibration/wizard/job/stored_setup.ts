@@ -32,7 +32,7 @@ export function setupOf(job: Job): SetupRequest {
   return asked(own) ?? kept() ?? asked(job.suggested_setup) ?? structuredClone(FIRST)
 }
 
-export function keepSetup(setup: SetupRequest): void {
+export function storeSetup(setup: SetupRequest): void {
   write(KEY, setup)
 }
 
@@ -44,7 +44,7 @@ export interface Typed {
 }
 
 /** Kept until it is the job's, or the job is closed. */
-export function keepTyped(job: Job, setup: SetupRequest, reason: string): void {
+export function storeTyped(job: Job, setup: SetupRequest, reason: string): void {
   const same = JSON.stringify(setup) === JSON.stringify(setupOf(job))
   const over = job.closed_at !== null || (same && reason === '')
   const typed: Typed = { setup, reason, plan: planOf(job) }
@@ -61,8 +61,8 @@ const typedKey = (job: Job) => `spindle.calibration.typed.${job.unit_key}.${job.
 const planOf = (job: Job) => JSON.stringify(job.setup ?? null)
 
 function kept(): SetupRequest | null {
-  const found = read<SetupRequest>(KEY)
-  return found && { ...structuredClone(FIRST), ...found }
+  const stored_setup = read<SetupRequest>(KEY)
+  return stored_setup && { ...structuredClone(FIRST), ...stored_setup }
 }
 
 /** Null for nothing, and for what cannot be read. */
@@ -85,9 +85,9 @@ function write(key: string, value: object | null): void {
 }
 
 /** A setup as it is told, asked for again. */
-function asked(told: Job['setup']): SetupRequest | null {
-  if (!told) return null
-  const { gravity, gain_nm_per_count, ...rest } = told
+function asked(setup: Job['setup']): SetupRequest | null {
+  if (!setup) return null
+  const { gravity, gain_nm_per_count, ...rest } = setup
   void gain_nm_per_count // the unit's to tell
   const { latitude_deg, height_m, gravity_ms2, standard_ms2 } = gravity
   const place = latitude_deg != null && height_m != null

@@ -3,7 +3,7 @@
 import type { Edits } from './config_draft.svelte'
 
 /** base: what the unit had when the first of them was made. */
-export interface Kept {
+export interface StoredDraft {
   edits: Edits
   base: Edits
   reason: string
@@ -13,11 +13,11 @@ export interface Kept {
 const PREFIX = 'spindle.draft\n'
 
 /** Null for none. Where the browser keeps nothing, edits live as long as the page. */
-export function keep(key: string, kept: Kept | null): void {
-  const text = JSON.stringify(kept)
+export function storeDraft(key: string, stored: StoredDraft | null): void {
+  const text = JSON.stringify(stored)
   for (const place of places()) {
     try {
-      if (kept) place.setItem(PREFIX + key, text)
+      if (stored) place.setItem(PREFIX + key, text)
       else place.removeItem(PREFIX + key)
     } catch {
       // Full, or forbidden: the edits are on the page.
@@ -26,20 +26,21 @@ export function keep(key: string, kept: Kept | null): void {
 }
 
 /** Everything that is kept, by key. */
-export function allKept(): Map<string, Kept> {
-  const found = new Map<string, Kept>()
+export function storedDrafts(): Map<string, StoredDraft> {
+  const drafts = new Map<string, StoredDraft>()
   for (const place of places().toReversed()) {
     for (const key of Object.keys(place).filter((name) => name.startsWith(PREFIX))) {
       try {
-        const kept = JSON.parse(place.getItem(key) ?? '') as Kept
-        if (typeof kept.edits !== 'object' || typeof kept.base !== 'object') throw new TypeError()
-        found.set(key.slice(PREFIX.length), kept)
+        const stored = JSON.parse(place.getItem(key) ?? '') as StoredDraft
+        const { edits, base } = stored
+        if (typeof edits !== 'object' || typeof base !== 'object') throw new TypeError()
+        drafts.set(key.slice(PREFIX.length), stored)
       } catch {
         place.removeItem(key)
       }
     }
   }
-  return found
+  return drafts
 }
 
 function places(): Storage[] {
