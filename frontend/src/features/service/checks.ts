@@ -94,7 +94,7 @@ function drifted(
   }
   const zero = units.text(latest.zero_nm, 'Nm', 2)
   const count = drift.rides.filter(({ zero_nm }) => zero_nm !== null).length
-  let result = say('drift_found', { zero, date: instant(latest.started_at), count })
+  let result = say('drift_result', { zero, date: instant(latest.started_at), count })
   if (trend) {
     result = say('drift_rate', { result, rate: units.text(trend.per_month_nm.value, 'Nm', 2) })
   }
@@ -104,11 +104,11 @@ function drifted(
 
 function flash(wear: WearCounters | null, say: Say): Check {
   const word = 'check_flash'
-  const allowed = say('flash_whole')
+  const allowed = say('flash_intact')
   if (wear === null) return { word, result: say('why_unsent'), allowed, passed: null }
   const bad = wear.config_slots.some(({ state }) => state === 'damaged')
   const places = say(
-    wear.runs_on_default ? 'flash_default' : bad ? 'flash_damaged' : 'flash_whole',
+    wear.runs_on_default ? 'flash_default' : bad ? 'flash_damaged' : 'flash_intact',
   )
   const erases = wear.config_slots.reduce((sum, slot) => sum + slot.erases, 0)
   const passed = !bad && !wear.runs_on_default

@@ -118,8 +118,8 @@ export class ConfigDraft {
   private take(stamp: ConfigStamp & { unit_key: string }, parameters: Edits, tag: string): void {
     this.unit_key ??= stamp.unit_key
     if (stamp.unit_key !== this.unit_key) {
-      const told = `This is for the unit ${this.unit_key}; another is unit.`
-      throw new Refusal(412, 'other_unit', told)
+      const message = `This is for the unit ${this.unit_key}; another is there.`
+      throw new Refusal(412, 'other_unit', message)
     }
     const was = this.baseline
     this.baseline = parameters

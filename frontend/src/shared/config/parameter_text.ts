@@ -43,7 +43,7 @@ export function bandText(
   locale: Locale,
   units: Units,
   parameter: Parameter,
-  phrase: 'known' | 'left',
+  phrase: 'range' | 'left',
 ): string {
   const { free, unit } = parameter
   const shown = (value: number) => `${shownTyped(value, unit, units)} ${units.label(unit)}`.trim()

@@ -82,7 +82,7 @@ it('draws what the motor gave over what it would have given', () => {
     'replayed_motor_torque_nm',
     'replayed_fuzzy_gain',
   ])
-  expect(row?.key).toBe('torque_given')
+  expect(row?.key).toBe('torque_delivered')
   expect(row?.lines.map((line) => line.name)).toEqual(['as_ridden', 'open_loop'])
   // A gain that was not recorded is not named either.
   expect(gain?.lines.map((line) => line.name)).toEqual(['open_loop'])
@@ -96,8 +96,8 @@ it('compares what was asked with what would have been asked, and calls it so', (
     'replayed_motor_torque_demanded_nm',
     'replayed_fuzzy_gain',
   ])
-  expect(row?.key).toBe('torque_asked')
-  expect(torque(demandOnly())).toMatchObject({ key: 'asked_nm', recorded: 1.5, replayed: 2.5 })
+  expect(row?.key).toBe('torque_demanded')
+  expect(torque(demandOnly())).toMatchObject({ key: 'demanded_nm', recorded: 1.5, replayed: 2.5 })
 })
 
 it('finds the largest torque in the bins, which keep every extreme', () => {

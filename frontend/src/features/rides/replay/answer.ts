@@ -38,7 +38,7 @@ export function drawnRows(replay: Replay, series: Series): TraceRow[] {
         { channel: REPLAYED + channel, token, name: 'open_loop', style: 'dashed' },
       ] satisfies TraceLine[]
     ).filter((line) => largest(series, line.channel) !== null)
-  const key = isDemandOnly(replay) ? 'torque_asked' : 'torque_given'
+  const key = isDemandOnly(replay) ? 'torque_demanded' : 'torque_delivered'
   return [
     { key, unit: 'Nm', lines: lines(comparedTorque(replay), 'motor') },
     { key: 'gain', unit: '', lines: lines(GAIN, 'gain') },
@@ -65,7 +65,7 @@ export interface FigureRow {
     | 'wh_per_km'
     | 'motor_work_wh'
     | 'torque_nm'
-    | 'asked_nm'
+    | 'demanded_nm'
     | 'motor_power_w_mean'
     | 'ripple_nm_per_s'
   unit: string
@@ -90,7 +90,7 @@ export function figureRows(replay: Replay, series: Series): FigureRow[] {
   return [
     row('wh_per_km', 'Wh/km', replay.wh_per_km),
     row('motor_work_wh', 'Wh', replay.motor_work_wh),
-    row(isDemandOnly(replay) ? 'asked_nm' : 'torque_nm', 'Nm', most),
+    row(isDemandOnly(replay) ? 'demanded_nm' : 'torque_nm', 'Nm', most),
     row('motor_power_w_mean', 'W', replay.motor_power_w_mean, 0),
     row('ripple_nm_per_s', 'Nm/s', replay.ripple_nm_per_s),
   ]

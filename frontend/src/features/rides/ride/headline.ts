@@ -34,7 +34,7 @@ export function headline(
     value == null ? say(missing) : note
   const meanTop = (mean: number | null | undefined, top: number | null | undefined) =>
     say('mean_top', { mean: units.text(mean, 'W'), top: units.text(top, 'W') })
-  const motorless = ride.motor_torque_meaning === 'demanded' ? 'not_asked' : 'none_motor'
+  const motorless = ride.motor_torque_meaning === 'demanded' ? 'demand_only' : 'none_motor'
   const ratio = s?.rider_wh && s.motor_wh != null ? s.motor_wh / s.rider_wh : null
   return [
     {

@@ -11,7 +11,7 @@ it('draws what was asked of the motor behind what it gave', () => {
   )
 
   expect(shown.map((row) => row.key)).toEqual(['motor_torque_crank'])
-  expect(shown[0]?.lines.map((line) => line.name)).toEqual(['motor_asked', 'motor_given'])
+  expect(shown[0]?.lines.map((line) => line.name)).toEqual(['motor_demanded', 'motor_delivered'])
 })
 
 it('calls a motor torque asked where nobody measured it', () => {

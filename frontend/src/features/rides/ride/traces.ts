@@ -12,15 +12,15 @@ const rows: (TraceRow & { instead?: TraceRow })[] = [
     key: 'motor_torque_crank',
     unit: 'Nm',
     lines: [
-      { channel: 'motor_torque_demanded_crank_nm', token: 'motor-faint', name: 'motor_asked' },
-      { channel: 'motor_torque_crank_nm', token: 'motor', name: 'motor_given' },
+      { channel: 'motor_torque_demanded_crank_nm', token: 'motor-faint', name: 'motor_demanded' },
+      { channel: 'motor_torque_crank_nm', token: 'motor', name: 'motor_delivered' },
     ],
     instead: {
       key: 'motor_torque',
       unit: 'Nm',
       lines: [
-        { channel: 'motor_torque_demanded_nm', token: 'motor-faint', name: 'motor_asked' },
-        { channel: 'motor_torque_nm', token: 'motor', name: 'motor_given' },
+        { channel: 'motor_torque_demanded_nm', token: 'motor-faint', name: 'motor_demanded' },
+        { channel: 'motor_torque_nm', token: 'motor', name: 'motor_delivered' },
       ],
     },
   },

@@ -116,12 +116,12 @@ it('puts what the law asks before the clamps, each bar where the one before ende
   const rows = waterfall(why())
 
   expect(rows.map(({ kind }) => kind).join(' ')).toBe(
-    'rider law law asked clamp clamp clamp clamp clamp clamp given',
+    'rider law law demanded clamp clamp clamp clamp clamp clamp delivered',
   )
   expect(demandedNm(why())).toBeCloseTo(119.4)
   for (const [i, row] of rows.entries()) {
     const before = rows[i - 1]
-    if (before && row.kind !== 'asked' && row.kind !== 'given') {
+    if (before && row.kind !== 'demanded' && row.kind !== 'delivered') {
       expect(row.from_nm).toBe(before.to_nm)
     }
   }

@@ -3,7 +3,7 @@ import type { Why } from '$shared/api/types'
 import type { Units } from '$shared/units/units.svelte'
 import type { Say, Key } from './words'
 
-export type Kind = 'rider' | 'law' | 'asked' | 'clamp' | 'given'
+export type Kind = 'rider' | 'law' | 'demanded' | 'clamp' | 'delivered'
 
 export interface Row {
   name: string
@@ -34,17 +34,19 @@ export function waterfall(why: Why): Row[] {
     rows.push({ name, kind, from_nm: at_nm, to_nm, torque_nm, power_w })
     at_nm = to_nm
     const next = why.steps[i + 1]
-    if (kind !== 'clamp' && next && !LAW.includes(next.name)) addTotal('asked', 'asked', at_nm)
+    if (kind !== 'clamp' && next && !LAW.includes(next.name)) {
+      addTotal('demanded', 'demanded', at_nm)
+    }
   }
   const delivered = why.delivered_nm
-  if (delivered === null) addTotal('commanded', 'given', why.commanded_nm)
-  else addTotal('delivered', 'given', delivered)
+  if (delivered === null) addTotal('commanded', 'delivered', why.commanded_nm)
+  else addTotal('delivered', 'delivered', delivered)
   return rows
 }
 
 /** What the law asked for, before anything was taken from it. */
 export function demandedNm(why: Why): number {
-  return waterfall(why).find((row) => row.kind === 'asked')?.to_nm ?? 0
+  return waterfall(why).find((row) => row.kind === 'demanded')?.to_nm ?? 0
 }
 
 /** The clamps that took torque, the hardest first. What the motor's own control misses is none. */
@@ -69,16 +71,16 @@ export function sentence(why: Why, say: Say, units: Units): string {
   const mode = why.law === 'walk' ? say('walk') : named(why.mode_name)
   if (why.law === 'off') return say('off', { mode })
   const demanded_nm = demandedNm(why)
-  if (demanded_nm < TELLING_NM) return say('asked_nothing', { mode })
+  if (demanded_nm < TELLING_NM) return say('demanded_nothing', { mode })
   const delivered_nm = why.delivered_nm ?? why.commanded_nm
   const demanded = units.text(demanded_nm, 'Nm', 0)
   const delivered = units.text(delivered_nm, 'Nm', 0)
   const taken = takers(why)
   if (taken.length === 0) {
-    const uncut = why.delivered_nm === null ? 'uncut_told' : 'uncut'
+    const uncut = why.delivered_nm === null ? 'uncut_commanded' : 'uncut'
     return say(delivered === demanded ? uncut : 'uncut_short', { mode, demanded, delivered })
   }
-  const main = say(why.delivered_nm === null ? 'asked_commanded' : 'asked_arrived', {
+  const main = say(why.delivered_nm === null ? 'demanded_commanded' : 'demanded_delivered', {
     mode,
     demanded,
     delivered,
@@ -135,7 +137,7 @@ export function rowDetail(row: Row, why: Why, units: Units): string {
   const gear = units.number(settings.gear_ratio, '', 2)
   const most = units.text(settings.motor_torque_nm_max * settings.gear_ratio, 'Nm')
   const details: Record<string, string> = {
-    asked: row.power_w === null ? '' : units.text(row.power_w, 'W'),
+    demanded: row.power_w === null ? '' : units.text(row.power_w, 'W'),
     delivered: row.power_w === null ? '' : units.text(row.power_w, 'W'),
     commanded: row.power_w === null ? '' : units.text(row.power_w, 'W'),
     cutoff_band: units.text(why.speed_kmh, 'km/h'),
@@ -153,7 +155,7 @@ export function rowDetail(row: Row, why: Why, units: Units): string {
 
 /** What stands at the right of a row: torque in the law, watts at the clamps. */
 export function rowValue(row: Row, units: Units): string {
-  if (row.kind === 'asked' || row.kind === 'given' || row.kind === 'rider') {
+  if (row.kind === 'demanded' || row.kind === 'delivered' || row.kind === 'rider') {
     return units.text(row.torque_nm, 'Nm')
   }
   const sign = row.torque_nm < 0 ? '−' : '+'

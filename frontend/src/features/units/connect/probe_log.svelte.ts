@@ -44,7 +44,7 @@ export class ProbeLog {
 
 /** How far a connection is, in one of few words; each has a sentence of its own. */
 export function probeResult(device: Pick<Device, 'state' | 'reason_code'>): ProbeResult {
-  if (device.state === 'ready') return 'found'
+  if (device.state === 'ready') return 'connected'
   if (device.state === 'read_only') return 'older'
   return RESULTS[device.reason_code] ?? 'failed'
 }
@@ -66,7 +66,7 @@ const RESULTS: Readonly<Record<string, ProbeResult>> = {
 }
 
 export type ProbeResult =
-  | 'found'
+  | 'connected'
   | 'older'
   | 'probing'
   | 'busy'

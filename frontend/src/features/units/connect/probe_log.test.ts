@@ -31,7 +31,7 @@ it('keeps the last tries of a unit that is away', () => {
 })
 
 it('calls a unit found only when it is ready, and what it does not know failed', () => {
-  expect(probeResult(deviceIn('ready', 'no_stream'))).toBe('found')
+  expect(probeResult(deviceIn('ready', 'no_stream'))).toBe('connected')
   expect(probeResult(deviceIn('read_only', 'read_only'))).toBe('older')
   expect(probeResult(deviceIn('connecting', 'port_permission'))).toBe('forbidden')
   expect(probeResult(deviceIn('closed', 'never_heard_of'))).toBe('failed')

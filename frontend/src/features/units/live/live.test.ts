@@ -52,11 +52,11 @@ it('splits the work between the feet by the angle the crank turned', () => {
   const angles = Array.from({ length: 430 }, (_, row) => (row * 3.6) % 360)
   const torques = angles.map((angle) => (angle < 180 ? 30 : 20))
 
-  const turns_found = lastTurns(angles, torques)
+  const last = lastTurns(angles, torques)
 
-  expect(turns_found?.left).toBeCloseTo(0.6)
-  expect(turns_found?.torque_nm_max).toBe(30)
-  expect(turns_found?.turns.map((turn) => turn.length)).toEqual([100, 100, 100, 30])
+  expect(last?.left).toBeCloseTo(0.6)
+  expect(last?.torque_nm_max).toBe(30)
+  expect(last?.turns.map((turn) => turn.length)).toEqual([100, 100, 100, 30])
 })
 
 it('draws nothing before the cranks have turned once, nor over a gap', () => {

@@ -34,10 +34,10 @@ export class RideView extends TraceWindow {
     channels: string[],
     duration_s: number,
     window: TimeWindow | null,
-    private wanted: TraceAxis | LaidAxis = timeAxis,
+    private requested_axis: TraceAxis | LaidAxis = timeAxis,
   ) {
     super(duration_s, window)
-    this.axis = wanted
+    this.axis = requested_axis
     this.channels = channels
   }
 
@@ -49,7 +49,7 @@ export class RideView extends TraceWindow {
 
   /** Draws over another axis as soon as its curve is there. */
   lay(axis: TraceAxis, px: number): void {
-    this.wanted = axis
+    this.requested_axis = axis
     this.fetchSoon(px)
   }
 
@@ -70,9 +70,9 @@ export class RideView extends TraceWindow {
     const { signal } = this.controller
     this.loading = true
     // Whole hundreds of pixels: the same window on almost the same screen is the same request.
-    const axis = this.wanted
-    const wanted = { px: Math.max(100, Math.round(px / 100) * 100), axis: axis.kind }
-    const query = this.is_complete ? wanted : { ...wanted, ...this.window }
+    const axis = this.requested_axis
+    const bins = { px: Math.max(100, Math.round(px / 100) * 100), axis: axis.kind }
+    const query = this.is_complete ? bins : { ...bins, ...this.window }
     try {
       const series = await this.fetchSeries(this.channels, query, signal)
       if (signal.aborted) return

@@ -29,7 +29,7 @@ export const FIRST: SetupRequest = {
     first. */
 export function setupOf(job: Job): SetupRequest {
   const own = job.setup ?? null
-  return asked(own) ?? kept() ?? asked(job.suggested_setup) ?? structuredClone(FIRST)
+  return requestOf(own) ?? stored() ?? requestOf(job.suggested_setup) ?? structuredClone(FIRST)
 }
 
 export function storeSetup(setup: SetupRequest): void {
@@ -60,7 +60,7 @@ export function typedOf(job: Job): Typed | null {
 const typedKey = (job: Job) => `spindle.calibration.typed.${job.unit_key}.${job.id}`
 const planOf = (job: Job) => JSON.stringify(job.setup ?? null)
 
-function kept(): SetupRequest | null {
+function stored(): SetupRequest | null {
   const stored_setup = read<SetupRequest>(KEY)
   return stored_setup && { ...structuredClone(FIRST), ...stored_setup }
 }
@@ -85,7 +85,7 @@ function write(key: string, value: object | null): void {
 }
 
 /** A setup as it is told, asked for again. */
-function asked(setup: Job['setup']): SetupRequest | null {
+function requestOf(setup: Job['setup']): SetupRequest | null {
   if (!setup) return null
   const { gravity, gain_nm_per_count, ...rest } = setup
   void gain_nm_per_count // the unit's to tell

@@ -21,7 +21,7 @@ export function instructionOf(
   step: Step | null,
 ): Instruction {
   const say = words(locale)
-  if (!step) return { title: say('all_there'), note: '', button: '' }
+  if (!step) return { title: say('all_taken'), note: '', button: '' }
   const { kind, side, mass_kg, crank_angle_deg, stroke, direction } = step.state
   const pedal = side ? say(`pedal_${side}`) : ''
   const place = say('stroke_of', {

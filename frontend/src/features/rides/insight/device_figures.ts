@@ -16,7 +16,7 @@ const DIGITS = 2
 
 /** A figure's name: in words where they are known, else as the file has it. */
 export function nameOf(figure: StatedFigure, say: Say): string {
-  const key = `stated_${figure.name}`
+  const key = `device_${figure.name}`
   return key in en ? say(key as Key) : figure.name
 }
 

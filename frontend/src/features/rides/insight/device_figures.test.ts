@@ -1,7 +1,7 @@
 // @vitest-environment happy-dom
 import { expect, test } from 'vitest'
 import { clock, type Locale } from '$shared/i18n/locale.svelte'
-import { nameOf, valueOf } from './stated_lines'
+import { nameOf, valueOf } from './device_figures'
 import en from '$messages/en/insight.json'
 import type { Key } from './words'
 
