@@ -27,7 +27,8 @@ export class BuildWatch {
     void this.check()
   }
 
-  /** Asks which pages the server has. An answer that is not ours, a proxy's say, tells nothing. */
+  /** Checks which pages the server has. An answer that is not ours, such as a proxy's, is ignored.
+      */
   async check(): Promise<void> {
     if (this.is_old) return
     try {

@@ -1,5 +1,4 @@
-/* Goal: an open page knows that the server was given other pages, and takes nobody else's word for
-   it. */
+/* Goal: an open page notices that the server has other pages, and ignores answers of a proxy. */
 import { afterEach, describe, expect, it, vi } from 'vitest'
 import { BuildWatch } from './build_watch.svelte'
 

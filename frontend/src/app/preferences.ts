@@ -1,4 +1,4 @@
-// What the reader chose, kept in this browser. Anything unreadable counts as not chosen.
+// What the reader chose, stored in this browser. Anything unreadable counts as not chosen.
 import type { Language } from '$shared/i18n/locale.svelte'
 import type { ThemeChoice } from '$shared/ui/theme.svelte'
 import type { System } from '$shared/units/units.svelte'

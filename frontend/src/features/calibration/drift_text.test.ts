@@ -1,4 +1,4 @@
-/* Goal: a share of temperature is told by the degrees that its reader reads. */
+/* Goal: a share of temperature is given in the reader's degrees. */
 import { expect, it } from 'vitest'
 import { Locale } from '$shared/i18n/locale.svelte'
 import { Units } from '$shared/units/units.svelte'

@@ -1,4 +1,5 @@
-// What was dropped or chosen, also whole folders: the files within, without those a system hides.
+// What was dropped or chosen, also complete folders: the files within, without those a system
+// hides.
 
 /** Files of a drop; folders are gone through. */
 export async function droppedFiles(transfer: DataTransfer | null): Promise<File[]> {
@@ -11,7 +12,7 @@ export async function droppedFiles(transfer: DataTransfer | null): Promise<File[
   return shownFiles(files.flat())
 }
 
-/** Those that a person put there: `.DS_Store` and the like are nobody's rides. */
+/** Without files of the system such as `.DS_Store`. */
 export const shownFiles = (files: Iterable<File>): File[] =>
   [...files].filter(({ name }) => !name.startsWith('.'))
 

@@ -86,7 +86,7 @@ export class ImportQueue {
     return total > 0 ? this.weightDone / total : 0
   }
 
-  /** Seconds to the end at the speed so far; null while nobody can say. */
+  /** Seconds to the end at the speed so far; null while unknown. */
   get left_s(): number | null {
     const spent_s = (this.now_ms() - this.began_ms) / 1000
     const gone = this.share - this.began_share

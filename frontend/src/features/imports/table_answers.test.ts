@@ -1,4 +1,4 @@
-/* Goal: a unit is never chosen for a rider, and a table is read when all that is asked is said. */
+/* Goal: a unit is never chosen for a rider, and a table is read once every question is answered. */
 import type { TableQuestion } from '$shared/api/types'
 import { describe, expect, it } from 'vitest'
 import { answered, isComplete } from './table_answers'

@@ -1,4 +1,4 @@
-// What an owner says of a table, as far as it is said.
+// An owner's answers about a table, as far as given.
 import type { TableQuestion } from '$shared/api/types'
 
 export interface AnswerDraft {
@@ -8,7 +8,7 @@ export interface AnswerDraft {
   rate: number | null
 }
 
-/** What was said before, and the rider's own zone; a unit is never chosen for him. */
+/** The earlier answers, and the rider's own zone; a unit is never chosen for the rider. */
 export function answered(question: TableQuestion, here: string): AnswerDraft {
   const before = question.answer
   const with_units = question.columns.filter(({ units }) => units.length > 0)
@@ -23,7 +23,7 @@ export function answered(question: TableQuestion, here: string): AnswerDraft {
   }
 }
 
-/** Whether everything that is asked is said. */
+/** Whether every question is answered. */
 export function isComplete(question: TableQuestion, draft: AnswerDraft): boolean {
   return (
     (!question.time_zone || draft.zone.trim() !== '') &&

@@ -12,7 +12,7 @@ const QUIET_MS = 5000
 export const isFetched = (log: UnitLog) => log.download?.state === 'done'
 export const isRunning = (log: UnitLog) =>
   log.download !== null && !['done', 'failed'].includes(log.download.state)
-/** Whether nobody has it and nobody is about to. */
+/** Whether it is not downloaded and no download is under way. */
 export const isUnfetched = (log: UnitLog) =>
   log.state !== 'recording' && !log.confirmed && !isFetched(log) && !isRunning(log)
 
@@ -20,9 +20,9 @@ export class UnitRides {
   logs = $state.raw<UnitLog[] | null>(null)
   overwritten = $state(0)
   problem = $state<string | null>(null)
-  /** This unit keeps none. */
+  /** This unit stores none. */
   none = $state(false)
-  /** Asked once; or there was nobody to ask. */
+  /** Whether the first request was sent, or none was possible. */
   loaded = $state(false)
   private done = 0
   private running = true
@@ -40,7 +40,7 @@ export class UnitRides {
     return (this.logs ?? []).filter(isUnfetched)
   }
 
-  /** Looks at the unit until it is stopped. */
+  /** Polls the unit until stopped. */
   async watch(): Promise<void> {
     if (!document.hidden && this.isReady()) await this.load()
     this.loaded = true
@@ -54,7 +54,7 @@ export class UnitRides {
     clearTimeout(this.timer)
   }
 
-  /** Has them fetched one after the other; what cannot be is told. */
+  /** Has them fetched one after the other; failures are shown. */
   fetch(logs: UnitLog[]): Promise<boolean> {
     return this.trying(async () => {
       for (const { log_id } of logs) await this.server.fetchLog(this.id, log_id)

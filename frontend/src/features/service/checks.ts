@@ -10,7 +10,7 @@ export interface Reading {
   channels: Readonly<Record<string, number | null>>
   wear: WearCounters | null
   counters: Record<string, number | null>
-  /** Of the unit's rides; null where nobody can tell. */
+  /** Of the unit's rides; null where unknown. */
   drift: SensorDrift | null
   /** Of battery_voltage_v_min; null where it is not known. */
   battery_v_min: number | null
@@ -78,7 +78,7 @@ export function checksOf(
   ]
 }
 
-/** What the rides tell of the zero, with the trend where there is one. */
+/** What the rides show of the zero, with the trend where there is one. */
 function drifted(
   drift: SensorDrift | null,
   say: Say,

@@ -1,5 +1,5 @@
 // @vitest-environment happy-dom
-/* Goal: whoever searches for the cause of a fault is led through every fault there is, and a live
+/* Goal: the guide covers every fault, and a live
    value speaks for or against a cause by the limit that the unit itself uses. */
 import { FAULTS, CHANNELS } from '$generated/registry'
 import { expect, it } from 'vitest'

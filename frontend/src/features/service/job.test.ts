@@ -1,5 +1,5 @@
 // @vitest-environment happy-dom
-/* Goal: the sheet tells which faults there were before the work and what became of them. */
+/* Goal: the sheet shows which faults there were before the work and what became of them. */
 import type { Fault } from '$shared/api/types'
 import { expect, it } from 'vitest'
 import { storeJob, storedJob, seenFaults } from './job'

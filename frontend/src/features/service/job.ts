@@ -1,4 +1,4 @@
-// The job sheet of a unit, kept in this browser as it is typed, with the faults that were seen
+// The job sheet of a unit, stored in this browser as it is typed, with the faults that were seen
 // while it was open.
 import type { Fault } from '$shared/api/types'
 
@@ -28,7 +28,7 @@ export function newJob(): Job {
   return { values, faults: [], begun_at: new Date().toISOString() }
 }
 
-/** What was typed and seen for a unit; a new sheet where nothing was, or nothing can be kept. */
+/** What was typed and seen for a unit; a new sheet where nothing was, or nothing can be stored. */
 export function storedJob(unit: string): Job {
   const empty = newJob()
   try {
@@ -50,12 +50,12 @@ export function storeJob(unit: string, job: Job): void {
   try {
     localStorage.setItem(keyOf(unit), JSON.stringify(job))
   } catch {
-    // Nothing can be kept here: it lasts as long as the page.
+    // Nothing can be stored here: it lasts as long as the page.
   }
 }
 
-/** The faults of a sheet after the unit has told those it has now. One that comes again is there
-    again; one that is only remembered by the unit is on the sheet too, as over. */
+/** The faults of a sheet after the unit has reported its present ones. One that comes again is
+    there again; one that is only remembered by the unit is on the sheet too, as over. */
 export function seenFaults(before: SeenFault[], current: Fault[], now: string): SeenFault[] {
   const updated = before.map((seen) => {
     const fault = current.find((one) => one.name === seen.name)

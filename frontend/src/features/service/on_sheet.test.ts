@@ -1,6 +1,6 @@
 // @vitest-environment happy-dom
 /* Goal: the sheet shows a ride only if it was made after the work, a calibration only as the
-   history has it, and of the sensor's zero what the rides told. */
+   history has it, and of the sensor's zero what the rides show. */
 import type { Revision, Ride, SensorDrift } from '$shared/api/types'
 import type { Units } from '$shared/units/units.svelte'
 import { expect, it } from 'vitest'
@@ -28,7 +28,7 @@ it('takes a ride after the newest settings and the newest fault that was over', 
   expect(rideAfter(ride(14), job(), [revision(13), revision(9)])?.id).toBe(14)
   expect(rideAfter(ride(12), job(), [revision(13), revision(9)])).toBeNull()
   expect(rideAfter(ride(14), job(15, 10), [revision(13)])).toBeNull()
-  // Over when it was first seen: nobody knows since when.
+  // Over when it was first seen: its start is unknown.
   expect(rideAfter(ride(9), { ...job(8), begun_at: at(7) }, [])?.id).toBe(9)
 })
 
@@ -51,7 +51,7 @@ it('tells the newest change of a parameter, and none where there was none', () =
   expect(lastChange(history, 'sensor_gain_nm_per_count')).toBeNull()
 })
 
-// The check of the zero: what the rides told, and a fail where the assist would stop.
+// The check of the zero: what the rides show, and a fail where the assist would stop.
 const units = {
   text: (value: number, unit: string, digits = 1) => `${value.toFixed(digits)} ${unit}`,
 } as unknown as Units

@@ -26,7 +26,7 @@ export type Http = Client<paths>
 
 const OF_A_CONNECTION = /\/api\/v1\/devices\/([^/]+)\//
 
-/** The key of the unit that the page shows on a connection; null while nobody knows it. */
+/** The key of the unit that the page shows on a connection; null while unknown. */
 export type KeyOf = (device_id: string) => string | null
 
 /** A client of the server this page came from, whose changes carry the author's name and which unit

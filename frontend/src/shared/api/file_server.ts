@@ -31,7 +31,7 @@ export class FileServer {
     await body(this.http.DELETE('/api/v1/uploads/{upload_id}', this.at(id)))
   }
 
-  /** What must be said of a table before it is read. */
+  /** The questions about a table before it can be read. */
   tableQuestion(id: string): Promise<TableQuestion> {
     return body(this.http.GET('/api/v1/uploads/{upload_id}/mapping', this.at(id)))
   }
@@ -43,17 +43,17 @@ export class FileServer {
     )
   }
 
-  /** A simulated ride to look round with; made where it is not here yet. */
+  /** A simulated ride for a first look; made where it is not here yet. */
   sampleRide(): Promise<Ride> {
     return body(this.http.POST('/api/v1/rides/sample'))
   }
 
-  /** What was said of which tables. */
+  /** The answers given about tables. */
   async answeredTables(): Promise<AnsweredTable[]> {
     return (await body(this.http.GET('/api/v1/tables'))).items
   }
 
-  /** The next file with this header is asked about again. */
+  /** The next file with this header needs an answer again. */
   async forgetTable(header_sha256: string): Promise<void> {
     const params = { path: { header_sha256 } }
     await body(this.http.DELETE('/api/v1/tables/{header_sha256}', { params }))

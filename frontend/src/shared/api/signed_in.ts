@@ -1,4 +1,4 @@
-// Whether somebody signed in with this browser, without asking: a server without accounts is asked
+// Whether somebody signed in with this browser, without a request: a server without accounts gets
 // nothing. The cookie holds no secret; the one that does is out of reach of scripts.
 export const isSignedIn = (): boolean => document.cookie.includes('spindle_signed_in=')
 

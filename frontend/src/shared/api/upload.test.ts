@@ -1,6 +1,6 @@
 // @vitest-environment happy-dom
-/* Goal: a file arrives whole although the network breaks. The server here counts bytes and fails on
-   request; by tus 1.0 only the server knows after a failure how far it got. */
+/* Goal: a file arrives complete although the network breaks. The server here counts bytes and fails
+   on request; by tus 1.0 only the server knows after a failure how far it got. */
 import type { HttpRequest, HttpStack } from 'tus-js-client'
 import { afterEach, expect, it } from 'vitest'
 import { Refusal } from './client'

@@ -17,7 +17,7 @@ export interface UploadSteps {
   http?: HttpStack
 }
 
-/** Whoever sends does not want to any more. */
+/** The sender stopped the upload. */
 export class Stopped extends Error {}
 
 const browser: UploadSteps = {
@@ -143,7 +143,8 @@ async function checkedFetch(
   throw refusal(response.status, await response.json().catch(() => null))
 }
 
-// Only pages of this machine or over TLS may hash; a large file is told by name, size and time.
+// Only pages of this machine or over TLS may hash; a large file is identified by name, size and
+// time.
 async function sha256(file: File): Promise<string | null> {
   if (!globalThis.crypto?.subtle || file.size > HASHED_BYTES_MAX) return null
   const digest = await crypto.subtle.digest('SHA-256', await file.arrayBuffer())

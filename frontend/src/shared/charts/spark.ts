@@ -1,4 +1,4 @@
-// A small line without axes: where it runs, and where it breaks because nobody knows.
+// A small line without axes: where it runs, and where it breaks because the value is unknown.
 
 export const [SPARK_WIDTH, SPARK_HEIGHT] = [200, 40]
 

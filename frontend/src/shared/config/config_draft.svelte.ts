@@ -6,7 +6,7 @@ import { differing, rebased, same } from './elements'
 import { storeDraft, type StoredDraft } from './stored_drafts'
 import { isFactorys } from './ratchet'
 
-/** A unit and where it is; its key is null until it said who it is. */
+/** A unit and where it is; its key is null until it is identified. */
 export type UnitRef = Pick<Device, 'id' | 'url' | 'unit_key'>
 
 export type Edits = Readonly<Record<string, ParameterValue>>
@@ -26,13 +26,13 @@ export interface ConfigStamp {
 const HISTORY_MAX = 200
 
 /** The draft of one page for one unit; it outlives the page, so that leaving loses nothing. An edit
-    is of an element: what others change meanwhile beside it stays. */
+    is of an element: what others change elsewhere meanwhile stays. */
 export class ConfigDraft {
   parameters = $state.raw<Parameter[]>([])
   tag = $state('')
   generation = $state(0)
   loaded = $state(false)
-  /** Null where the next look at the unit must read everything. */
+  /** Null where the next read of the unit must be complete. */
   private crc32: number | null = null
   private writing = false
   private baseline = $state.raw<Edits>({})
@@ -49,7 +49,7 @@ export class ConfigDraft {
 
   /** The connection that the unit was last on. */
   device_id: string
-  /** Null until the unit said who it is. */
+  /** Null until the unit is identified. */
   unit_key: string | null
 
   constructor(
@@ -105,8 +105,8 @@ export class ConfigDraft {
     this.loaded = true
   }
 
-  /** Reads the configuration unless it is the one the draft has, or a write is about to say which
-      it is. stamp: of what the unit has; null where it does not tell. */
+  /** Reads the configuration unless it is the one the draft has, or a write is about to return it.
+      stamp: of what the unit has; null where it reports none. */
   async follow(stamp: ConfigStamp | null): Promise<void> {
     const same_one = stamp?.generation === this.generation && stamp.crc32 === this.crc32
     if (this.writing || (this.loaded && same_one)) return
@@ -150,8 +150,8 @@ export class ConfigDraft {
     return this.baseline[name]
   }
 
-  /** What it had when the first of the edits was made: where that is something else, somebody
-      changed it meanwhile. */
+  /** What it had when the first of the edits was made: where that is something else, it was
+      changed elsewhere meanwhile. */
   before(name: string): ParameterValue | undefined {
     return this.begun[name] ?? this.baseline[name]
   }
@@ -177,7 +177,7 @@ export class ConfigDraft {
     return this.edits[name] ?? this.baseline[name]
   }
 
-  /** The whole configuration by name, as the unit has it. */
+  /** The complete configuration by name, as the unit has it. */
   get bases(): Edits {
     return this.baseline
   }
@@ -239,7 +239,7 @@ export class ConfigDraft {
   }
 
   /** Writes the edits in one transaction and reads back what the unit has. confirm_s: 0 for good,
-      else for so many seconds on trial. token: the maker's, if a refusal asked for one. Throws
+      else for so many seconds on trial. token: the maker's, if a refusal requires it. Throws
       Refusal. */
   async write(reason: string, confirm_s = 0, token: string | null = null): Promise<ConfigChange> {
     const parameters = Object.fromEntries(this.changes.map((c) => [c.parameter.name, c.value]))
@@ -253,8 +253,8 @@ export class ConfigDraft {
     return result
   }
 
-  /** Writes the elements a change replaced, whatever somebody else may have made of them since;
-      what they changed beside them stays. Throws Refusal. */
+  /** Writes the elements a change replaced, whatever others changed in them since; their other
+      changes stay. Throws Refusal. */
   async takeBack(change: ConfigChange, reason: string): Promise<ConfigChange> {
     const old = () =>
       Object.fromEntries(
@@ -289,7 +289,7 @@ export class ConfigDraft {
         this.unit_key,
       )
       this.take(result, result.parameters, tag)
-      // What was written from here nobody else has changed.
+      // What was written from here is no concurrent change.
       if (Object.keys(this.begun).length > 0) {
         const own = Object.keys(parameters).map((name) => [name, this.baseline[name]] as const)
         this.begun = { ...this.begun, ...(Object.fromEntries(own) as Edits) }

@@ -1,5 +1,5 @@
-/* Goal: edits live in the draft until they are written, can be undone, and survive a change of the
-   unit by somebody else. */
+/* Goal: edits live in the draft until they are written, can be undone, and survive a concurrent
+   change of the unit. */
 import { afterEach, describe, expect, it, vi } from 'vitest'
 import { Refusal } from '../api/client'
 import type { Server } from '../api/server'
@@ -154,7 +154,7 @@ describe('a draft', () => {
     expect(server.reads).toBe(1)
     server.generation = 2
     await draft.follow({ generation: 2, crc32: 1002 })
-    await draft.follow(null) // a unit that does not tell which one it has
+    await draft.follow(null) // a unit that does not report which one it has
 
     expect(server.reads).toBe(3)
   })
@@ -381,7 +381,7 @@ describe('an edit of a table', () => {
   })
 })
 
-/** What a browser keeps under names. */
+/** What a browser stores under names. */
 const storage = (): Storage => {
   const entries = new Map<string, string>()
   const methods = {

@@ -5,7 +5,7 @@ import { ConfigDraft, type UnitRef } from './config_draft.svelte'
 import { storedDrafts } from './stored_drafts'
 
 /** Each page edits and writes its own draft; it belongs to the unit and not to its connection, and
-    this browser keeps it until it is written or discarded. */
+    this browser stores it until it is written or discarded. */
 export class Drafts {
   private readonly byKey = new Map<string, ConfigDraft>()
 
@@ -33,7 +33,7 @@ export class Drafts {
     return own.reduce((sum, draft) => sum + draft.count, 0)
   }
 
-  /** The draft of a unit without a serial number from before somebody gave it a name. */
+  /** The draft of a unit without a serial number from before it got a name. */
   private beforeItsName({ unit_key, url }: UnitRef, page: string): ConfigDraft | null {
     const [family, name] = unit_key?.split(':name:') ?? []
     if (!unit_key || name === undefined) return null

@@ -1,4 +1,4 @@
-// Which groups of parameters stand as plain forms beside tables and modes, in which order.
+// Which groups of parameters are plain forms next to tables and modes, in which order.
 import type { Device, Parameter } from '../api/types'
 import { can, hasPage } from '../device/capabilities'
 

@@ -1,4 +1,4 @@
-// What is wrong with a value before anyone is asked: the unit's own bounds, one message a field.
+// What is wrong with a value before a request is sent: the unit's own bounds, one message a field.
 import { PARAMETERS, type ParameterRow } from '$generated/registry'
 import type { Parameter, ParameterValue } from '../api/types'
 

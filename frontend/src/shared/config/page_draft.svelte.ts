@@ -1,4 +1,4 @@
-// The draft of a page for the unit that is chosen, kept up with what that unit has.
+// The draft of a page for the unit that is chosen, kept up to date with that unit.
 import { untrack } from 'svelte'
 import type { Refusal } from '../api/client'
 import { useAppContext } from '../context/app_context'
@@ -39,7 +39,7 @@ export function pageDraft(page: string): PageDraft {
     if (!readable || !draft) return
     const stamped = generation !== undefined && crc32 !== undefined
     const stamp = stamped ? { generation, crc32 } : null
-    // What the draft learns meanwhile is no reason to ask again.
+    // A change of the draft must not trigger another read.
     untrack(() => draft.follow(stamp)).then(
       () => (problem = null),
       (error: Refusal) => (problem = refusalText(locale, error)),

@@ -75,7 +75,7 @@ export function singleText(
     : '—'
 }
 
-/** A whole value in one line, for lists of what changed. */
+/** A complete value in one line, for lists of what changed. */
 export function valueText(
   locale: Locale,
   units: Units,

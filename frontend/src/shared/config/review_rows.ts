@@ -23,13 +23,13 @@ export interface ElementChange {
   label: string
   old: string
   value: string
-  /** What the unit had when the edit began, where somebody changed this element meanwhile. */
+  /** What the unit had when the edit began, where this element was changed elsewhere meanwhile. */
   before: string | null
   range: string
   fault: string | null
   /** For what only a token changes, or changes back: what the reader should know. */
   token: string | null
-  /** Whether the unit will ask for the maker's token. */
+  /** Whether the unit will require the maker's token. */
   locked: boolean
 }
 
@@ -83,7 +83,7 @@ export function elementChanges(
   return changes
 }
 
-/** What others changed meanwhile beside the edits, as "what: from → to"; it stays. */
+/** What others changed meanwhile, apart from the edits, as "what: from → to"; it stays. */
 export function concurrentChanges(
   locale: Locale,
   units: Units,

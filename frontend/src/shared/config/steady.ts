@@ -1,4 +1,4 @@
-// What somebody asks of the law when he asks about a state and not about a moment of a ride.
+// The fixed part of a question to the law about a steady state.
 import type { WhyRequest } from '../api/types'
 
 /** Held until what the law averages has settled. */

@@ -1,4 +1,4 @@
-// Edits that are not in their unit yet, kept in this browser until they are written or discarded:
+// Edits that are not in their unit yet, stored in this browser until they are written or discarded:
 // a tab's own first, so that two tabs do not take each other's.
 import type { Edits } from './config_draft.svelte'
 
@@ -12,7 +12,7 @@ export interface StoredDraft {
 
 const PREFIX = 'spindle.draft\n'
 
-/** Null for none. Where the browser keeps nothing, edits live as long as the page. */
+/** Null for none. Where the browser stores nothing, edits live as long as the page. */
 export function storeDraft(key: string, stored: StoredDraft | null): void {
   const text = JSON.stringify(stored)
   for (const place of places()) {
@@ -25,7 +25,7 @@ export function storeDraft(key: string, stored: StoredDraft | null): void {
   }
 }
 
-/** Everything that is kept, by key. */
+/** All stored drafts, by key. */
 export function storedDrafts(): Map<string, StoredDraft> {
   const drafts = new Map<string, StoredDraft>()
   for (const place of places().toReversed()) {

@@ -17,7 +17,7 @@ export function challengeText(challenge: TokenChallenge): string {
   return JSON.stringify({ challenge }, null, 2) + '\n'
 }
 
-/** A name for the file, so that a maker with several of them can tell them apart. */
+/** A name for the file, so that a maker with several of them can distinguish them. */
 export function challengeFile(challenge: TokenChallenge): string {
   return `challenge-${challenge.uid}-${challenge.nonce.slice(0, 8)}.json`
 }

@@ -1,4 +1,4 @@
-/* Goal: whoever sees a trial end is told what became of it: kept, given up, run out, cut short. */
+/* Goal: the end of a trial is shown with its outcome: kept, given up, run out, cut short. */
 import { describe, expect, it } from 'vitest'
 import type { Device } from '../api/types'
 import { endOf, isOver, secondsLeft, trialOf, type Trial } from './trial'

@@ -19,7 +19,7 @@ const outcomes: Record<string, WriteOutcome> = {
   port_vanished: 'silent',
 }
 
-/** What became of the change. Nobody knows where the server itself broke off, or where an answer is
+/** What became of the change. Unknown where the server itself broke off, or where an answer is
     missing and the server did not find out. */
 export function writeOutcome({ code, status, outcome }: Refusal): WriteOutcome {
   if (outcome) return OUTCOMES[outcome]

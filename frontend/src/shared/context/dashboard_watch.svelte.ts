@@ -14,7 +14,7 @@ export class DashboardWatch {
   constructor(
     private readonly server: Server,
     private readonly device_id: string,
-    /** Told of each look. */
+    /** Called after each poll. */
     private readonly onvalues: (values: Dashboard | null) => void = () => undefined,
   ) {}
 

@@ -1,4 +1,4 @@
-// A choice that is kept in a browser outlives the version that kept it.
+// A choice that is stored in a browser outlives the version that stored it.
 import { describe, expect, it } from 'vitest'
 import type { Server } from '../api/server'
 import type { Device } from '../api/types'

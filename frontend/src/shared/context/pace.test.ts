@@ -1,5 +1,6 @@
-/* Goal: a hand that moves asks hundreds of times; the first is answered at once, then the newest,
-   no oftener than the pace allows. Safari throws after 100 changes of the address in 30 s. */
+/* Goal: a moving pointer requests hundreds of times; the first is answered at once, then the
+   newest, no oftener than the pace allows. Safari throws after 100 changes of the address in 30 s.
+   */
 import { afterEach, beforeEach, expect, it, vi } from 'vitest'
 import { Pace } from './pace'
 

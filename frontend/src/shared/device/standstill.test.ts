@@ -7,7 +7,7 @@ import { whileStanding } from './standstill'
 
 const pause = { wait: async () => undefined }
 
-/** A bike that loses 5 km/h between two looks once its rider stops. */
+/** A bike that loses 5 km/h between two polls once its rider stops. */
 function rollingBike() {
   let speed_kmh = 20
   const changes: SimulationChange[] = []

@@ -46,7 +46,7 @@ export class Locale {
     }).format(value)
   }
 
-  /** A share in per cent with one decimal. Rounded down: what is not whole never reads 100. */
+  /** A share in per cent with one decimal. Rounded down: what is not complete never reads 100. */
   share(part: number): string {
     return this.number(Math.floor(part * 1000) / 10, 1)
   }

@@ -1,4 +1,4 @@
-/* Goal: the page of modes tells what is about modes and limits, once, and not what is a table's. */
+/* Goal: the page of modes shows what is about modes and limits, once, and not what is a table's. */
 import type { Finding, LintReport } from '$shared/api/types'
 import { expect, it } from 'vitest'
 import { modeFindings } from './mode_findings'

@@ -3,7 +3,7 @@ import type { LintReport, LintRequest } from '../api/types'
 import type { ConfigDraft } from '../config/config_draft.svelte'
 import { modesWith, surroundings, tableOf, TABLES, type TableName } from '../config/two_tables'
 
-/** What the linter is asked about one of the draft's tables; null while a value is impossible. */
+/** The question to the linter about one of the draft's tables; null while a value is impossible. */
 export function lintQuestion(draft: ConfigDraft, table: TableName): LintRequest | null {
   const fuzzy_table = tableOf(draft, table)
   return fuzzy_table && { fuzzy_table, table, ...surroundings(draft) }

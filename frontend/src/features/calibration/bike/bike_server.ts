@@ -1,4 +1,4 @@
-// What the server makes of rolls, rides and climbs: the bike's numbers beside its calibration.
+// What the server makes of rolls, rides and climbs: the bike's other numbers.
 import type { components } from '$generated/api'
 import { body, type Http } from '$shared/api/client'
 
@@ -12,7 +12,7 @@ export type WheelByTrack = Schemas['WheelByTrack']
 export type PulsesRequest = Schemas['PulsesRequest']
 export type CadenceRequest = Schemas['CadenceRequest']
 type ClimbRequest = Schemas['ClimbRequest']
-/** What the page asks of a climb; the rest is as the server has it. */
+/** What the page sends of a climb; the rest are the server's defaults. */
 export type ClimbQuestion = Pick<
   ClimbRequest,
   'climb' | 'coast_downs' | 'mass_kg' | 'mass_limit_kg' | 'rise_limit_m' | 'motor_off'

@@ -1,4 +1,4 @@
-// Goal: what is asked of a climb is what was chosen, and what is drawn of it adds nothing up.
+// Goal: the request for a climb is what was chosen, and what is drawn of it adds nothing up.
 import { expect, test } from 'vitest'
 import type { ClimbResult } from './bike_server'
 import { asSlope, barsOf, withPart, type Part } from './climb_parts'

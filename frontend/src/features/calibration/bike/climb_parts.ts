@@ -8,13 +8,13 @@ export interface Part {
   to_s: number | null
   /** Null, or no number yet: by the ride's heights, where it has them. */
   rise_m: number | null
-  /** As the ride tells heights by itself. */
+  /** By the ride's own heights. */
   heights: boolean
 }
 
 export interface Bar {
   key: 'legs' | 'motor' | 'gravity' | 'kinetic' | 'rolling' | 'air' | 'drivetrain'
-  /** Null where nobody measured it. */
+  /** Null where not measured. */
   wh: number | null
   /** Of the longest, 0 to 1. */
   share: number
@@ -22,13 +22,13 @@ export interface Bar {
 
 const J_PER_WH = 3600
 
-/** Another part beside those chosen: there is one climb, and any number of coast-downs. */
+/** Another part besides those chosen: there is one climb, and any number of coast-downs. */
 export function withPart(parts: readonly Part[], part: Part): Part[] {
   const others = part.kind === 'climb' ? parts.filter(({ kind }) => kind !== 'climb') : [...parts]
   return part.kind === 'climb' ? [part, ...others] : [...others, part]
 }
 
-/** As it is asked: without a height of its own, by the ride's. */
+/** As sent: without an entered height, by the ride's. */
 export function asSlope({ ride_id, from_s, to_s, rise_m }: Part): Slope {
   const terms = rise_m !== null && Number.isFinite(rise_m)
   return { ride_id, from_s, to_s, rise_m: terms ? rise_m : null }

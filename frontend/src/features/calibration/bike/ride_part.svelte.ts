@@ -23,7 +23,7 @@ export class BikeRides {
 
   constructor(private readonly server: Server) {}
 
-  /** Looks for rides that came since; those that are here stay what they are. */
+  /** Fetches rides added since; those already listed stay unchanged. */
   refresh = async (): Promise<void> => {
     await this.fetch(undefined, ({ next }) => {
       if (!this.loaded) this.next = next
@@ -74,7 +74,7 @@ export class RidePart {
     this.view = drawn ? new RideView(ofRide(this.server, ride.id), channels, end_s, null) : null
   }
 
-  /** The part as it is asked about; without ends, all of it. */
+  /** The selected part; without ends, the complete ride. */
   get selection(): { ride_id: number; from_s: number | null; to_s: number | null } | null {
     if (!this.ride) return null
     const { window, is_complete } = this.view ?? { window: null, is_complete: true }

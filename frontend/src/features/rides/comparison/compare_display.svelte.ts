@@ -1,4 +1,4 @@
-// How two rides are looked at: windows, axis, channels, cursor, and the address that holds them.
+// How two rides are displayed: windows, axis, channels, cursor, and the address that holds them.
 import { NewestAnswer } from '$shared/api/newest_answer.svelte'
 import { PairOfRides } from '$shared/api/pair_of_rides'
 import type { Server } from '$shared/api/server'
@@ -37,7 +37,7 @@ export class CompareDisplay implements Cursor {
   view = $state.raw<RideView | null>(null)
   /** Of either, on the axis. */
   gaps = $state.raw<Span[]>([])
-  /** The place that is looked at: seconds or metres since the start. */
+  /** The place under the cursor: seconds or metres since the start. */
   t_s = $state<number | null>(null)
   private readonly server: PairOfRides
   private requested: string[]
@@ -63,7 +63,7 @@ export class CompareDisplay implements Cursor {
     this.t_s = number('x')
   }
 
-  /** What is asked for; null until both rides are chosen. */
+  /** The requested pair; null until both rides are chosen. */
   get pair(): ComparedPair | null {
     const { a, b } = this
     if (a.id === null || b.id === null) return null
@@ -80,7 +80,7 @@ export class CompareDisplay implements Cursor {
     return this.channels.filter(({ name }) => this.names.includes(name))
   }
 
-  /** Whether an axis can be told of both. */
+  /** Whether both rides have an axis. */
   offers(by: By): boolean {
     const answer = this.comparison.value
     return by !== 'distance' || !!(answer?.a.length_m && answer.b.length_m)
@@ -100,7 +100,7 @@ export class CompareDisplay implements Cursor {
     this.lay(this.offers(this.by) ? this.by : 'time', true)
   }
 
-  /** Chooses a side anew; what was looked at of the old ones is over. */
+  /** Chooses a side; the display of the old pair is dropped. */
   choose(name: SideName, side: Side): void {
     this[name] = side
     this.forget()

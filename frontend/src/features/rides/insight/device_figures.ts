@@ -1,4 +1,4 @@
-// Figures of the whole ride as its device stated them: name and value, in the units of the pages.
+// Figures of the whole ride as its device reports them: name and value, in the units of the pages.
 import type { Ride } from '$shared/api/types'
 import type { Locale } from '$shared/i18n/locale.svelte'
 import en from '$messages/en/insight.json'

@@ -1,5 +1,5 @@
-/* Goal: a replay's figures are told truthfully: what is missing is missing, what was only asked of
-   a motor is called so, and only limits that were at work are named. */
+/* Goal: a replay's figures are true: what is missing is missing, torque that was only demanded is
+   called so, and only limits that were at work are named. */
 import type { Replay } from '$shared/api/types'
 import { expect, it } from 'vitest'
 import {
@@ -58,7 +58,7 @@ function replay(changes: Partial<Replay> = {}): Replay {
     ...changes,
   }
 }
-/** As a unit of before recorded it: one motor torque, and that is what was asked. */
+/** As earlier units recorded it: one motor torque, the demanded one. */
 const demandOnly = (changes: Partial<Replay> = {}) => {
   const { series } = replay()
   const channels = series.channels.filter(({ name }) => name !== 'motor_torque_demanded_nm')

@@ -1,4 +1,4 @@
-// A replay as the page tells it: its curves, its figures, and why one is missing.
+// A replay as the page shows it: its curves, its figures, and why one is missing.
 import { seriesOf, type Series } from '$shared/api/series'
 import type { Replay } from '$shared/api/types'
 import type { TraceLine, TraceRow } from '$shared/charts/traces/trace_line'
@@ -8,17 +8,18 @@ const DEMANDED = 'motor_torque_demanded_nm'
 const GAIN = 'fuzzy_gain'
 const REPLAYED = 'replayed_'
 
-/** Whether the record tells only what was asked of the motor. */
+/** Whether the record has only the demanded motor torque. */
 const isDemandOnly = (replay: Replay) => replay.motor_torque_meaning === 'demanded'
 
-/** The motor torque that is compared: what it gave, or what was asked where only that is known. */
+/** The motor torque that is compared: the delivered one, or the demanded one where only that is
+    recorded. */
 export const comparedTorque = (replay: Replay) => (isDemandOnly(replay) ? DEMANDED : TORQUE)
 
-/** The curves that are drawn, recorded and replayed; a torque that was asked is called so. */
+/** The curves that are drawn, recorded and replayed; a demanded torque is called so. */
 export function drawnSeries(replay: Replay): Series {
   const series = seriesOf(replay.series)
   const has = (name: string) => series.channels.some((channel) => channel.name === name)
-  // Firmware of before knew one motor torque, and it was what it asked for.
+  // Earlier firmware has one motor torque, the demanded one.
   const is_demand = (name: string) => name === TORQUE && isDemandOnly(replay) && !has(DEMANDED)
   const torque = comparedTorque(replay)
   const shown = [torque, REPLAYED + torque, GAIN, REPLAYED + GAIN]
@@ -45,7 +46,7 @@ export function drawnRows(replay: Replay, series: Series): TraceRow[] {
   ].filter((row) => row.lines.length > 0)
 }
 
-/** The largest value of a channel: the bins of a series keep every extreme. */
+/** The largest value of a channel: the bins of a series retain every extreme. */
 export function largest(series: Series, name: string): number | null {
   const channel = series.channels.find((c) => c.name === name)
   const valid = channel?.max.filter((value) => !Number.isNaN(value))
@@ -96,7 +97,7 @@ export function figureRows(replay: Replay, series: Series): FigureRow[] {
   ]
 }
 
-/** A limit that held the motor back, as shares of the time, 0 to 1. */
+/** A limit that reduced the motor's torque, as shares of the time, 0 to 1. */
 export interface LimitRow {
   name: string
   recorded: number | null

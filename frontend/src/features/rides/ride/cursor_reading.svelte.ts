@@ -1,14 +1,14 @@
-// What every channel of a ride tells at the cursor: the row that holds there, as recorded.
+// The value of every channel of a ride at the cursor: the row that holds there, as recorded.
 import type { Server } from '$shared/api/server'
 import type { Ride } from '$shared/api/types'
 import { Pace } from '$shared/context/pace'
 
-const PACE_MS = 40 // a drag asks this often at most
+const PACE_MS = 40 // a drag sends requests at most this often
 // A head unit's row holds until the next one; a longer silence is a gap.
 const ROW_S_MAX = 10
 
 export class CursorReading {
-  /** By channel; null where nothing is told. The whole is null until the first answer. */
+  /** By channel; null where there is none. All of it is null until the first answer. */
   values = $state.raw<Record<string, number | null> | null>(null)
   private readonly left = new AbortController()
   private readonly pace = new Pace(PACE_MS)

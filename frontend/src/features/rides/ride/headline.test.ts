@@ -1,5 +1,5 @@
 // @vitest-environment happy-dom
-/* Goal: a ride is told by eight figures, and one that is missing says why. */
+/* Goal: a ride is summarised by eight figures, and one that is missing says why. */
 import { expect, it } from 'vitest'
 import type { Ride } from '$shared/api/types'
 import { Locale, fill } from '$shared/i18n/locale.svelte'

@@ -1,4 +1,4 @@
-// The eight figures a ride is told by. A figure that is missing is a dash with its reason.
+// The eight figures that summarise a ride. A figure that is missing is a dash with its reason.
 import type { Ride, RideEnergy } from '$shared/api/types'
 import type { Locale } from '$shared/i18n/locale.svelte'
 import type { Units } from '$shared/units/units.svelte'
@@ -7,7 +7,7 @@ import type { Key, Say } from './words'
 export interface Figure {
   name: Key
   token?: 'rider' | 'motor' | 'battery'
-  /** Number and unit; null where the ride does not tell it. */
+  /** Number and unit; null where the ride has none. */
   value: [number: string, unit: string] | null
   /** What it rests on, or why it is missing. */
   note: string

@@ -1,4 +1,4 @@
-// How one ride is looked at: its window, axis, rows and cursor, and the address that holds them.
+// How one ride is displayed: its window, axis, rows and cursor, and the address that holds them.
 import { NewestAnswer } from '$shared/api/newest_answer.svelte'
 import type { Server } from '$shared/api/server'
 import type { Ride, RideEnergy, Track } from '$shared/api/types'
@@ -55,7 +55,7 @@ export class RideDisplay implements Cursor {
   private readonly requested_axis: AxisKind
   private readonly left = new AbortController()
 
-  /** Fetches what stands beside the traces. */
+  /** Fetches what is shown with the traces. */
   async load(): Promise<void> {
     const { id, state } = this.ride
     if (state === 'done') void this.energy.request((signal) => this.server.energy(id, signal))
@@ -75,7 +75,7 @@ export class RideDisplay implements Cursor {
     return this.shown.flatMap((row) => row.lines.map((line) => line.channel))
   }
 
-  /** The axes that this ride tells. */
+  /** The axes that this ride has. */
   offers(kind: AxisKind): boolean {
     return kind === 'time' || this.axisOf(kind) !== timeAxis
   }

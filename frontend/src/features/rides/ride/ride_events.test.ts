@@ -1,5 +1,5 @@
 // @vitest-environment happy-dom
-// Goal: an event of a ride is told in words that a rider understands, in both languages.
+// Goal: an event of a ride is described in words that a rider understands, in both languages.
 import { describe, expect, it } from 'vitest'
 import { Locale } from '$shared/i18n/locale.svelte'
 import { eventText } from './ride_events'

@@ -1,4 +1,5 @@
-/* Goal: a ride shows the channels it has, and says what it lacks or was only asked of the motor. */
+/* Goal: a ride shows the channels it has, and says what it lacks and what was only demanded of the
+   motor. */
 import { expect, it } from 'vitest'
 import type { Ride } from '$shared/api/types'
 import { Locale } from '$shared/i18n/locale.svelte'

@@ -3,8 +3,8 @@ import type { Ride } from '$shared/api/types'
 import type { TraceRow } from '$shared/charts/traces/trace_line'
 import type { Locale } from '$shared/i18n/locale.svelte'
 
-// Each row shows the first of its alternatives that the ride has. What a unit asked of its motor is
-// drawn behind what the motor gave.
+// Each row shows the first of its alternatives that the ride has. What a unit demanded of its motor
+// is drawn behind what the motor gave.
 const rows: (TraceRow & { instead?: TraceRow })[] = [
   { key: 'speed', unit: 'km/h', lines: [{ channel: 'speed_kmh', token: 'speed' }] },
   { key: 'rider_torque', unit: 'Nm', lines: [{ channel: 'rider_torque_nm', token: 'rider' }] },
@@ -40,7 +40,7 @@ const rows: (TraceRow & { instead?: TraceRow })[] = [
 const expected = ['speed', 'rider_torque', 'motor_torque_crank', 'power', 'gain']
 
 /** The rows a ride with these channels can show, and the expected ones it cannot. A motor torque
-    that was only asked for has a row that says so. */
+    that was only demanded has a row that says so. */
 export function rowsFor(
   channels: string[],
   meaning: Ride['motor_torque_meaning'] = null,

@@ -3,11 +3,11 @@ import type { ComparedSide, LibraryDocument, Parameter, ParameterValue } from '$
 import type { ConfigDraft } from '$shared/config/config_draft.svelte'
 import { PARAMETERS_OF, tableOf, type TableName } from '$shared/config/two_tables'
 
-/** What of the draft is kept: one of its tables, or all of it. */
+/** What of the draft is saved: one of its tables, or all of it. */
 export type SavedPart = TableName | 'configuration'
 
-/** The draft as a document; only what its unit tells is in it, and nothing that stays with a unit.
-    A table is kept by the names of the first one, whichever of the two it was. */
+/** The draft as a document; only what its unit has is in it, and nothing that stays with a unit.
+    A table is saved under the names of the first one, whichever of the two it was. */
 export function documentOf(draft: ConfigDraft, name: string, what: SavedPart): LibraryDocument {
   const is_configuration = what === 'configuration'
   const from = Object.entries(PARAMETERS_OF[is_configuration ? 'first' : what])

@@ -45,7 +45,7 @@ export class Entries {
     }
   }
 
-  /** Keeps a document. Throws Refusal. */
+  /** Saves a document. Throws Refusal. */
   async add(document: LibraryDocument): Promise<LibraryRow> {
     const row = await this.server.addToLibrary(document)
     await this.load()
@@ -82,7 +82,7 @@ export class Entries {
     await this.load()
   }
 
-  /** Keeps what a file holds; with a .fis file what was read of it. Throws Refusal, SyntaxError. */
+  /** Saves what a file holds; with a .fis file what was read of it. Throws Refusal, SyntaxError. */
   async take(file: File): Promise<[LibraryRow, ReadFis | null]> {
     const text = await file.text()
     if (!/\.fis$/i.test(file.name)) {

@@ -1,4 +1,4 @@
-/* Goal: what is done to a block of rules is a sum in gain, told in the labels nearest to it.
+/* Goal: what is done to a block of rules is computed in gain and given in the nearest labels.
 
 Expected labels are worked out by hand from the peaks 0.1, 0.2, 0.3, 0.4, 0.5. */
 import { expect, it } from 'vitest'

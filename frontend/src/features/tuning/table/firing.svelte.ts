@@ -18,7 +18,7 @@ export class Firing {
     return rule?.weight ?? 0
   }
 
-  /** The place that the bike is at, with the tables as edited; null where nobody knows. */
+  /** The place that the bike is at, with the tables as edited; null where unknown. */
   request(state: WhyRequest | null): void {
     clearTimeout(this.timer)
     if (!state) {

@@ -1,4 +1,4 @@
-/* Goal: what rides say about a table is said in one true sentence, and a number is never rounded
+/* Goal: the use of a table is one true sentence, and a number is never rounded
    into nothing or into all of it. */
 import type { TableUse } from '$shared/api/types'
 import { Locale } from '$shared/i18n/locale.svelte'

@@ -1,5 +1,5 @@
-// What the rides of a unit say about a table as it is edited. The newest question wins; it is asked
-// once the points rest, because a drag asks at every step and an answer reads whole rides.
+// How the rides of a unit used a table as it is edited. The newest question wins; it is sent
+// once the points rest, because a drag changes it at every step and an answer reads whole rides.
 import type { Refusal } from '$shared/api/client'
 import { NewestAnswer } from '$shared/api/newest_answer.svelte'
 import type { Server } from '$shared/api/server'
@@ -9,13 +9,13 @@ const REST_MS = 400
 
 export class TableUseQuestion {
   private readonly newest = new NewestAnswer<TableUse>()
-  // Not read from the answer: whoever asks in an effect would ask again at every answer.
+  // Not read from the answer: an effect that requests would run again at every answer.
   private answered = false
   private device: string | null | undefined
 
   constructor(private readonly server: Server) {}
 
-  /** Of the points asked for last, or while those are looked up of the ones before. */
+  /** Of the points requested last, or of the ones before until their answer is there. */
   get use(): TableUse | null {
     return this.newest.value
   }
@@ -25,7 +25,7 @@ export class TableUseQuestion {
   }
 
   async request(question: TableUseRequest): Promise<void> {
-    // What another unit's rides say is not kept on show.
+    // The answer for another unit's rides is dropped.
     if (this.device !== question.device) {
       this.newest.value = null
       this.answered = false

@@ -21,7 +21,7 @@ export class LiveMoment {
     return this.newest.refusal
   }
 
-  /** Explains what was recorded last. Waits for one answer before it asks again. */
+  /** Explains what was recorded last. Waits for one answer before the next request. */
   async refresh(unit_key: string | null): Promise<void> {
     const [newest] = unit_key === null ? [] : await this.server.latestRides(unit_key, 1)
     this.loaded = true

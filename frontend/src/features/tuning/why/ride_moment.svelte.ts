@@ -4,7 +4,7 @@ import { NewestAnswer } from '$shared/api/newest_answer.svelte'
 import type { Server } from '$shared/api/server'
 import type { Cut, Ride, Why } from '$shared/api/types'
 
-const PACE_MS = 60 // a cursor that is moved asks this often at most
+const PACE_MS = 60 // a cursor that is moved sends requests at most this often
 
 export class RideMoment {
   ride = $state.raw<Ride | null>(null)
@@ -17,7 +17,7 @@ export class RideMoment {
 
   constructor(private readonly server: Server) {}
 
-  /** Opens a ride at a moment; without one where it was held back first, else in its middle. */
+  /** Opens a ride at a moment; without one where a limit first acted, else in its middle. */
   async open(ride_id: number | null, t_s: number | null): Promise<void> {
     try {
       const id = ride_id ?? (await this.latest())
@@ -42,7 +42,7 @@ export class RideMoment {
     return this.problem ?? this.newest.refusal
   }
 
-  /** Nobody knows with which configuration the ride was made: nothing of it is explained. */
+  /** The configuration of the ride is unknown: nothing of it is explained. */
   get unknown(): boolean {
     return this.ride !== null && this.ride.device.config_crc32 === null
   }
@@ -51,7 +51,7 @@ export class RideMoment {
     return this.ride?.summary?.duration_s ?? 0
   }
 
-  /** The cut that the moment lies in; null where nothing held back. */
+  /** The cut that the moment lies in; null where no limit acted. */
   get cut(): Cut | null {
     return this.cuts.find(({ from_s, to_s }) => from_s <= this.t_s && this.t_s < to_s) ?? null
   }

@@ -1,10 +1,10 @@
-// A state that somebody asks about.
+// A state that the user sets.
 import type { Refusal } from '$shared/api/client'
 import { NewestAnswer } from '$shared/api/newest_answer.svelte'
 import type { Server } from '$shared/api/server'
 import type { Why, WhyRequest } from '$shared/api/types'
 
-const PACE_MS = 60 // a slider that is dragged asks this often at most
+const PACE_MS = 60 // a slider that is dragged sends requests at most this often
 
 export class SteadyState {
   private readonly newest = new NewestAnswer<Why>()

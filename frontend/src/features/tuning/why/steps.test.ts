@@ -1,7 +1,7 @@
 // @vitest-environment happy-dom
-/* Goal: the sentence and the waterfall tell what the steps say: who took how much, in the unit's
-   order, and what was not delivered or not measured is called so. Both languages have the same
-   words. */
+/* Goal: the sentence and the waterfall show what the steps contain: what took how much, in the
+   unit's order, and what was not delivered or not measured is called so. Both languages have the
+   same words. */
 import type { Why } from '$shared/api/types'
 import { Locale } from '$shared/i18n/locale.svelte'
 import { Units } from '$shared/units/units.svelte'

@@ -1,4 +1,4 @@
-// A control step as rows of a waterfall: what the law asked, what each clamp took, what is left.
+// A control step as rows of a waterfall: what the law demanded, what each clamp took, what is left.
 import type { Why } from '$shared/api/types'
 import type { Units } from '$shared/units/units.svelte'
 import type { Say, Key } from './words'
@@ -19,7 +19,7 @@ const LAW = ['rider_torque', 'mode_ratio', 'gain', 'taper', 'mode_off', 'walk_as
 /** Less than this is not worth a word. */
 const TELLING_NM = 0.05
 
-/** The steps in the unit's own order, with what the law asks before the clamps and what is left
+/** The steps in the unit's own order, with the law's demand before the clamps and what is left
     after them. */
 export function waterfall(why: Why): Row[] {
   const rows: Row[] = []
@@ -44,7 +44,7 @@ export function waterfall(why: Why): Row[] {
   return rows
 }
 
-/** What the law asked for, before anything was taken from it. */
+/** The law's demand, before any limit. */
 export function demandedNm(why: Why): number {
   return waterfall(why).find((row) => row.kind === 'demanded')?.to_nm ?? 0
 }
@@ -59,13 +59,14 @@ export function takers(why: Why): Row[] {
 
 const TABLE_BLIND = ['motor_torque', 'battery_current', 'temperature', 'back_emf', 'market']
 
-/** Whether what held back leaves nothing for a stronger table to add. */
+/** Whether the limits leave nothing for a stronger table to add. */
 export function tableCannotHelp(why: Why): boolean {
   const [hardest] = takers(why)
   return hardest !== undefined && TABLE_BLIND.includes(hardest.name)
 }
 
-/** The sentence that answers: how much was asked, how much came, and who took the rest. */
+/** The sentence that answers: how much was demanded, how much was delivered, and what took the
+    rest. */
 export function sentence(why: Why, say: Say, units: Units): string {
   if (why.result !== 'ok') return say(why.result === 'input_refused' ? 'refused' : 'lost')
   const mode = why.law === 'walk' ? say('walk') : named(why.mode_name)
@@ -129,7 +130,7 @@ export function rowName(row: Row, why: Why, say: Say, units: Units): string {
   })
 }
 
-/** What was read where a row decides; empty where nothing is to be told. */
+/** What was read where a row decides; empty where there is nothing to show. */
 export function rowDetail(row: Row, why: Why, units: Units): string {
   const { readings, settings } = why
   const shown = (name: string, unit: string) =>
@@ -165,7 +166,7 @@ export function rowValue(row: Row, units: Units): string {
   return /[1-9]/.test(size) ? sign + size : size
 }
 
-/** All of it as lines of text, to be sent to somebody. */
+/** All of it as lines of text, for passing on. */
 export function asText(why: Why, say: Say, units: Units, head: string): string {
   const rules = why.rules.map(({ row, column, label, weight }) => {
     const speed = units.text(why.table?.speed_points_kmh[row], 'km/h')

@@ -17,7 +17,7 @@ const CHANNELS = [
 ]
 
 export class UnitNow {
-  /** The last minute, once a second; null where nobody told. */
+  /** The last minute, once a second; null where not reported. */
   powers = $state.raw<{ at_s: number; rider_w: number | null; motor_w: number | null }[]>([])
   private readonly stream: LiveStream
   private readonly summed: DashboardWatch
@@ -32,7 +32,7 @@ export class UnitNow {
     return this.summed.values
   }
 
-  /** The newest values by channel; null while they are too old to look alive. */
+  /** The newest values by channel; null while they are too old to count as live. */
   get channels(): Record<string, number | null> | null {
     return this.stream.stale ? null : this.stream.latest
   }

@@ -1,4 +1,4 @@
-/* Goal: what is typed is told as the server reads it (backend/device/link/opening.py). */
+/* Goal: what is typed is classified as the server reads it (backend/device/link/opening.py). */
 import { expect, it } from 'vitest'
 import { addressKind, newSimulated } from './address'
 

@@ -1,4 +1,4 @@
-// What an address in words would be: said while it is typed, as the server will read it.
+// The kind of an address while it is typed, as the server will read it.
 
 export type AddressKind = 'simulated' | 'socket' | 'serial' | 'socket_part' | 'not_an_address'
 

@@ -1,7 +1,7 @@
-// What the server said of each connection while this page was open, in its order.
+// What the server reported of each connection while this page was open, in its order.
 import type { Device } from '$shared/api/types'
 
-/** One thing the server said; reason and state are its own words. */
+/** One report of the server; reason and state are its own words. */
 export interface ProbeLine {
   number: number
   after_s: number
@@ -10,7 +10,7 @@ export interface ProbeLine {
   reason_code: string
 }
 
-// A unit that is away is tried for ever; the last tries tell enough.
+// A unit that is away is tried for ever; the last tries are enough.
 const LINES = 8
 
 /** Notes a connection's state and reason whenever one of them is new. */
@@ -30,7 +30,7 @@ export class ProbeLog {
     this.lines_of = { ...this.lines_of, [id]: [...before, line].slice(-LINES) }
   }
 
-  /** A connection is asked for anew: its log begins again. */
+  /** A connection is requested again: its log begins again. */
   begin(device: Device, now_ms: number): void {
     this.begun_ms = { ...this.begun_ms, [device.id]: now_ms }
     this.lines_of = { ...this.lines_of, [device.id]: [] }

@@ -1,4 +1,4 @@
-/* Goal: the log holds what the server said, once each, in order, and no more than is of use. */
+/* Goal: the log holds the server's reports, once each, in order, and no more than is of use. */
 import type { Device } from '$shared/api/types'
 import { expect, it } from 'vitest'
 import { ProbeLog, probeResult } from './probe_log.svelte'

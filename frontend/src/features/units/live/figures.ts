@@ -1,4 +1,4 @@
-// What the page asks of the unit and shows as numbers: four large ones, then eight small.
+// What the page requests of the unit and shows as numbers: four large ones, then eight small.
 import type { Dashboard } from '$shared/api/types'
 import type { Key } from './words'
 
@@ -36,8 +36,8 @@ export const SMALL: readonly Figure[] = [
 
 const DEMANDED = 'motor_torque_demanded_nm'
 
-/** Whether the unit tells what its motor gives, by its current: one of earlier firmware sends as
-    `motor_torque_nm` what it asks, and nothing beside it. */
+/** Whether the unit reports the torque that its motor delivers, by its current: one of earlier
+    firmware sends as `motor_torque_nm` the demanded torque, and nothing else. */
 export function reportsDelivered(channels: readonly { name: string }[] | undefined): boolean {
   return channels?.some((channel) => channel.name === DEMANDED) ?? true
 }

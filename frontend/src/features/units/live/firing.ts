@@ -1,4 +1,4 @@
-// Which rules fire now, asked of the unit's own law with the table that the ridden mode uses.
+// Which rules fire now, computed by the unit's own law with the table that the ridden mode uses.
 import type { AssistModes, FuzzyTable, WhyRequest } from '$shared/api/types'
 import { STEADY } from '$shared/config/steady'
 import { modesFrom, tableFrom, type Read } from '$shared/config/two_tables'
@@ -23,7 +23,7 @@ export interface Channels {
   column: (channel: string) => (number | null)[] | null
 }
 
-/** The newest moment, a second ago at most, at which torque rose: only then is the table asked, and
+/** The newest moment, a second ago at most, at which torque rose: only then is the table used, and
     every stroke falls as long as it rises. Null for none. */
 export function moment(rows: Channels): Record<string, number> | null {
   const { times } = rows

@@ -1,4 +1,4 @@
-// Where something held the motor back in the rows of a stream.
+// Where something limited the motor in the rows of a stream.
 import { severityOf } from '$shared/device/fault_text'
 import { faultFlags, flagNames } from '$shared/stream/flags'
 import type { Column } from '$shared/stream/trace_buffer'
@@ -24,7 +24,7 @@ export interface LimitedSpan {
   from_s: number
   /** Infinity while it goes on. */
   to_s: number
-  /** Of limit_flags, in their order; none where only a fault held. */
+  /** Of limit_flags, in their order; none where only a fault limited it. */
   limits: string[]
   /** Of fault_flags; without warnings, which hold nothing back. */
   faults: string[]
@@ -44,7 +44,7 @@ export function holding(limits: number | null, faults: number | null) {
   return { limits: active.filter((name) => name !== 'fault' || names.length === 0), faults: names }
 }
 
-/** Every stretch in which something held the motor back, in order of time. */
+/** Every stretch in which something limited the motor, in order of time. */
 export function stretches({ times, limits, faults, faults_high }: LimitRows): LimitedSpan[] {
   const spans: { from_s: number; to_s: number; limits: number; faults: number }[] = []
   for (const [row, at_s] of times.entries()) {
@@ -54,7 +54,7 @@ export function stretches({ times, limits, faults, faults_high }: LimitRows): Li
     const active = holding(limit_word, fault_word)
     if (active.limits.length === 0 && active.faults.length === 0) continue
     const last = spans[spans.length - 1]
-    // A fault is told apart from what held before it.
+    // A fault is separated from the limit before it.
     if (last && at_s - last.to_s <= HOLE_S && (last.faults === 0) === (fault_word === 0)) {
       last.to_s = at_s
       last.limits |= limit_word

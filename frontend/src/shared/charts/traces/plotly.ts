@@ -2,7 +2,8 @@
 import type { Language } from '$shared/i18n/locale.svelte'
 import type { Theme } from '$shared/ui/theme.svelte'
 
-/** Nothing leaves this machine, nobody advertises, and zooming explains itself in our words. */
+/** Nothing leaves this machine, there is no advertisement, and zooming explains itself in our
+    words. */
 export function plotConfig(language: Language): object {
   return {
     showSendToCloud: false,

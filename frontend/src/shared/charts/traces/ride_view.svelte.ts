@@ -7,9 +7,9 @@ import { Pace } from '$shared/context/pace'
 import { timeAxis, type LaidAxis, type TraceAxis } from './trace_axis'
 import { TraceWindow, type TimeWindow } from './trace_window.svelte'
 
-const PACE_MS = 60 // a drag asks this often at most
+const PACE_MS = 60 // a drag sends requests at most this often
 
-/** Asks for the series of a window; without ends, of all there is. */
+/** Fetches the series of a window; without ends, of the complete ride. */
 export type FetchSeries = (
   channels: string[],
   query: { px: number; axis: Series['axis']; from_s?: number; to_s?: number },
@@ -24,7 +24,7 @@ export class RideView extends TraceWindow {
   channels = $state.raw<string[]>([])
   loading = $state(false)
   problem = $state<string | null>(null)
-  /** Width of the plot it was asked for last. */
+  /** Width of the plot of the last request. */
   px = 1000
   private controller = new AbortController()
   private readonly pace = new Pace(PACE_MS)

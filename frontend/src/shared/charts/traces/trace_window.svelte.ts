@@ -1,4 +1,4 @@
-// A window of time over traces: moved, zoomed, and kept inside the ride.
+// A window of time over traces: moved, zoomed, and clamped to the ride.
 import type { Series } from '$shared/api/series'
 import { timeAxis, type TraceAxis } from './trace_axis'
 

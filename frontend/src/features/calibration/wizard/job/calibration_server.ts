@@ -54,7 +54,7 @@ export class CalibrationServer {
     return body(this.http.POST('/api/v1/calibrations/{calibration_id}/fit', this.at(id)))
   }
 
-  /** token: the maker's, where a refusal asked for one. */
+  /** token: the maker's, where a refusal requires it. */
   write(calibration_id: number, reason: string, token: string | null): Promise<Job> {
     const params = { path: { calibration_id }, query: { reason, token } }
     return body(this.http.POST('/api/v1/calibrations/{calibration_id}/write', { params }))

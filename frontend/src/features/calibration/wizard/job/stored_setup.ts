@@ -43,7 +43,7 @@ export interface Typed {
   plan: string
 }
 
-/** Kept until it is the job's, or the job is closed. */
+/** Stored until the job has it, or the job is closed. */
 export function storeTyped(job: Job, setup: SetupRequest, reason: string): void {
   const same = JSON.stringify(setup) === JSON.stringify(setupOf(job))
   const over = job.closed_at !== null || (same && reason === '')
@@ -51,7 +51,7 @@ export function storeTyped(job: Job, setup: SetupRequest, reason: string): void 
   write(typedKey(job), over ? null : typed)
 }
 
-/** Null for none, and for a plan that somebody has made another meanwhile. */
+/** Null for none, and for a plan that was changed elsewhere meanwhile. */
 export function typedOf(job: Job): Typed | null {
   const typed = read<Typed>(typedKey(job))
   return typed?.plan === planOf(job) && typed.setup ? (typed as Typed) : null
@@ -74,7 +74,7 @@ function read<T>(key: string): Partial<T> | null {
   }
 }
 
-/** Null forgets it. Where nothing can be kept it lasts as long as the page. */
+/** Null forgets it. Where nothing can be stored it lasts as long as the page. */
 function write(key: string, value: object | null): void {
   try {
     if (value) localStorage.setItem(key, JSON.stringify(value))
@@ -84,11 +84,11 @@ function write(key: string, value: object | null): void {
   }
 }
 
-/** A setup as it is told, asked for again. */
+/** A setup of the API as the request for it. */
 function requestOf(setup: Job['setup']): SetupRequest | null {
   if (!setup) return null
   const { gravity, gain_nm_per_count, ...rest } = setup
-  void gain_nm_per_count // the unit's to tell
+  void gain_nm_per_count // set by the unit
   const { latitude_deg, height_m, gravity_ms2, standard_ms2 } = gravity
   const place = latitude_deg != null && height_m != null
   return {

@@ -1,4 +1,4 @@
-// Short names for what a calibration is told in.
+// Short names for the schemas of a calibration.
 import type { components, operations } from '$generated/api'
 
 type Schemas = components['schemas']

@@ -1,4 +1,4 @@
-// The figures of a calibration beside what is allowed, as bars; all from the server's own.
+// The figures of a calibration against what is allowed, as bars; all from the server's own.
 import type { Figure } from '../words/words'
 import type { Job } from '../job/types'
 

@@ -1,6 +1,6 @@
 // @vitest-environment happy-dom
 /* Goal: what the server says of a calibration is read in the reader's units and language, and says
-   so where something is not told. Sentences by hand; 5 Nm are 3.7 lbf·ft. */
+   so where something is not reported. Sentences by hand; 5 Nm are 3.7 lbf·ft. */
 import { FAULTS } from '$generated/registry'
 import { expect, it } from 'vitest'
 import { faultList } from '$shared/device/fault_text'

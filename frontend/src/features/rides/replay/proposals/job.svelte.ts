@@ -11,7 +11,7 @@ export class ProposalJob {
   refusal = $state.raw<Refusal | null>(null)
   requesting = $state(false)
   private timer: ReturnType<typeof setTimeout> | null = null
-  // An answer counts only if nothing was asked after it.
+  // An answer counts only if no request was sent after it.
   private turn = 0
   private given_up = false
 
@@ -37,7 +37,7 @@ export class ProposalJob {
     if (job && this.running) await this.update(() => this.server.cancelProposal(job.id))
   }
 
-  /** The page is left: nobody waits for the answer any more. */
+  /** The page is left: the answer is no longer needed. */
   leave(): void {
     void this.cancel()
     if (this.timer) clearTimeout(this.timer)

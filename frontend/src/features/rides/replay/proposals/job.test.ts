@@ -39,7 +39,7 @@ it('stays given up when an older look is answered late', async () => {
   } as unknown as Server
   const job = new ProposalJob(server)
   await job.begin({} as ProposalRequest)
-  await new Promise((soon) => setTimeout(soon, 500)) // the look is on its way
+  await new Promise((soon) => setTimeout(soon, 500)) // the poll is on its way
 
   await job.cancel()
   poll.settle(named('riding'))

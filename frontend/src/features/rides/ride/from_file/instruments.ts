@@ -27,7 +27,7 @@ export function wordOf(say: Say, of: 'kind' | 'sport' | 'state', word: string): 
   return key in en ? say(key as Key) : word.replaceAll('_', ' ')
 }
 
-/** What recorded a ride: by its file, else the unit it came from; '' where nobody knows. */
+/** What recorded a ride: by its file, else the unit it came from; '' where unknown. */
 export function recorderOf({ instruments, device }: Ride): string {
   const recorder = instruments.find(({ kind }) => kind === 'recorder')
   return (recorder && deviceName(recorder)) || (device.device_serial ?? '')

@@ -1,4 +1,4 @@
-// The assist modes of a ride: which was chosen when, and how each is told apart.
+// The assist modes of a ride: which was chosen when, and the line style of each.
 import type { RideEvent } from '$shared/api/types'
 
 export interface ModeSpan {
@@ -9,7 +9,7 @@ export interface ModeSpan {
 
 export interface ModeStyle {
   token: string
-  /** In the drawing's pixels; empty for a whole line. */
+  /** In the drawing's pixels; empty for a solid line. */
   dash: string
   width: number
 }

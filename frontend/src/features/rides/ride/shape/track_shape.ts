@@ -1,4 +1,5 @@
-// A track drawn: points of a ride in pixels, in pieces of one mode, with marks at whole kilometres.
+// A track drawn: points of a ride in pixels, in segments of one mode, with marks at whole
+// kilometres.
 import type { Track } from '$shared/api/types'
 import { LaidAxis } from '$shared/charts/traces/trace_axis'
 import { niceStep } from '$shared/charts/plot_axis'

@@ -1,4 +1,4 @@
-/* Goal: from wherever the surface is looked at, it is whole within its frame, what is nearer is
+/* Goal: from every viewpoint the surface is complete within its frame, what is nearer is
 painted later, and what is pointed at is what lies there. */
 import { describe, expect, it } from 'vitest'
 import { INITIAL_VIEW, Solid, turned, within, type Pixel } from './solid'

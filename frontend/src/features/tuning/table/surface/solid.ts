@@ -1,7 +1,7 @@
 // A surface over two axes as seen from a side: where its places lie on the screen, and its cells
-// from the farthest to the nearest. Looked at from far away, so that equal lengths stay equal.
+// from the farthest to the nearest. Seen from far away, so that equal lengths stay equal.
 
-/** From where it is looked at: turned about what is upright, and from how high; in radians. */
+/** The viewpoint: turn about the vertical, and tilt; in radians. */
 export interface View {
   turn: number
   tilt: number
@@ -11,7 +11,7 @@ export const INITIAL_VIEW: View = { turn: 0.75, tilt: 0.55 }
 const [TILT_LEAST, TILT_MOST] = [0.12, 1.4]
 const HEIGHT = 0.62 // of the surface, where its sides are 1
 
-/** A look turned and raised by so much. */
+/** The view turned and tilted further. */
 export function turned({ turn, tilt }: View, by: View): View {
   const raised = Math.min(TILT_MOST, Math.max(TILT_LEAST, tilt + by.tilt))
   return { turn: (turn + by.turn) % (2 * Math.PI), tilt: raised }

@@ -41,7 +41,7 @@ export class SurfacePreview {
     return this.torques.value
   }
 
-  /** Whether what is shown waits for the server: whatever else is asked of it would delay it. */
+  /** Whether what is shown waits for the server: any other request would delay it. */
   get waiting(): boolean {
     return this.gains.running || this.torques.running
   }
@@ -55,7 +55,7 @@ export class SurfacePreview {
     return refused?.message ?? null
   }
 
-  /** The surface comes first: the findings keep the server longer, as they are proven. */
+  /** The surface comes first: the findings take the server longer, as they are proven. */
   async request(question: LintRequest): Promise<void> {
     this.current = question
     this.findings.stop()

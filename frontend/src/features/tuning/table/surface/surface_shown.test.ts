@@ -1,5 +1,5 @@
-/* Goal: the picture of the surface is what the law answered, in the unit that was asked for, and
-says who took what. */
+/* Goal: the picture of the surface is what the law answered, in the requested unit, and says which
+limit took what. */
 import { expect, it } from 'vitest'
 import type { TorqueSurface } from '$shared/api/types'
 import { pictureOf, takers } from './surface_shown'

@@ -20,13 +20,13 @@ export interface Picture {
   z: number[][]
   top: number
   unit: '' | 'Nm' | 'W'
-  /** What the law asks where what arrives is shown; null for anything else. */
+  /** What the law demands where the delivered torque is shown; null for anything else. */
   demanded: number[][] | null
   /** By which limits it is less than that; null for anything else. */
   taken_by: string[][][] | null
 }
 
-/** What draws a picture is told. */
+/** The input of what draws a picture. */
 export interface Drawn {
   picture: Picture
   /** What is shown, with its unit. */

@@ -10,7 +10,7 @@ export class Trail {
   places = $state.raw<Place[]>([])
   private seen: (Place & { at_ms: number })[] = []
 
-  /** The bike is at a place now; null: nobody knows, or it runs by the other table. */
+  /** The bike is at a place now; null: unknown, or it runs by the other table. */
   note(place: Place | null, now_ms: number): void {
     const last = this.seen[this.seen.length - 1]
     if (!place) this.seen = []
