@@ -190,14 +190,14 @@ def test_the_certificate_in_the_unit_tells_how_sure_the_calibration_is(store: St
     assert unknown.balance.en == pytest.approx(abs(ratio - 1) / expanded)
 
 
-def climb_of(store: Store, asked_nm: float | None, day: int = 1) -> Question:
+def climb_of(store: Store, demanded_nm: float | None, day: int = 1) -> Question:
     """A coast-down from 9 m/s by 10 N and a climb of 24 m, in rides of a head unit."""
     coast = kept(store, {"speed_kmh": 3.6 * np.linspace(9.0, 3.0, 60)})
     flat = np.full(121, 1.0)
     columns = {"speed_kmh": 3.6 * 4.0 * flat, "rider_torque_nm": 30.0 * flat}
     columns |= {"cadence_rpm": 70.0 * flat, "altitude_m": 400.0 + np.arange(121) / 5}
-    if asked_nm is not None:
-        columns["motor_torque_demanded_nm"] = asked_nm * flat
+    if demanded_nm is not None:
+        columns["motor_torque_demanded_nm"] = demanded_nm * flat
     slopes = [Slope(Window(coast), 0.0)]
     return Question(Slope(Window(kept(store, columns, day * DAY_S))), slopes, KNOWN, True, 0.0)
 
@@ -214,12 +214,12 @@ def test_a_motor_that_nobody_measured_takes_the_rider_s_word(store: Store) -> No
     ratio = told.balance.needed_energy_j / (0.97 * legs_j)
     assert told.balance.gain_ratio == pytest.approx(ratio, rel=1e-9)
     assert told.balance.needed_energy_j == pytest.approx(100 * 9.807 * 24 + 480 * 10.4, rel=0.01)
-    for day, asked_nm, motor_off, expected in (
+    for day, demanded_nm, motor_off, expected in (
         (2, 0.0, False, "motor_unknown"),
         (3, None, False, "motor_unknown"),
         (4, 0.5, True, "motor_helped"),
     ):
-        question = climb_of(store, asked_nm, day)
+        question = climb_of(store, demanded_nm, day)
         with pytest.raises(InvalidRequest) as refused:
             ClimbCheck(store, nobody)(
                 Question(question.climb, question.coast_downs, KNOWN, motor_off, 0.0)
