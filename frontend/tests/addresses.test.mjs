@@ -10,7 +10,7 @@ const sources = readdirSync('src', { recursive: true, withFileTypes: true })
   .filter((file) => /\.(svelte|ts)$/.test(file.name) && !/\.test\.ts$/.test(file.name))
   .map((file) => `${file.parentPath}/${file.name}`)
 
-it('no page tells an address from the root of the site', () => {
+it('no page uses an address from the root of the site', () => {
   const found = sources.filter((file) => FROM_THE_ROOT.test(readFileSync(file, 'utf8')))
 
   expect(found).toEqual([])

@@ -19,7 +19,7 @@ const question: TableQuestion = {
   answer: null,
 }
 
-describe('what is said of a table', () => {
+describe('answers about a table', () => {
   it('begins with the zone of here and no unit', () => {
     expect(answered(question, 'Europe/Dublin')).toEqual({
       zone: 'Europe/Dublin',
@@ -28,13 +28,13 @@ describe('what is said of a table', () => {
     })
   })
 
-  it('begins with what was said before, as far as it can still be said', () => {
+  it('begins with the earlier answers, as far as they still apply', () => {
     const stored = { time_zone: 'UTC', units: { speed: 'knots' }, rows_per_second: 5 }
     const draft = answered({ ...question, answer: stored }, 'Europe/Dublin')
     expect(draft).toEqual({ zone: 'UTC', units: { speed: '' }, rate: 5 })
   })
 
-  it('is whole with a zone, each unit, and a rate where rows have no time', () => {
+  it('is complete with a zone, each unit, and a rate where rows have no time', () => {
     const draft = { zone: 'UTC', units: { speed: 'm/s' }, rate: null }
     expect(isComplete(question, draft)).toBe(true)
     expect(isComplete(question, { ...draft, zone: ' ' })).toBe(false)

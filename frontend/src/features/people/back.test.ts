@@ -19,6 +19,6 @@ it.each([
   '/.//evil.example',
 ])('does not go to %s', (back) => expect(at(back)).toBe('/'))
 
-it('goes to the first page where nothing is asked', () => {
+it('goes to the first page without a return address', () => {
   expect(returnAddress('', 'http://shop:8750')).toBe('/')
 })

@@ -39,7 +39,7 @@ it('takes one after the sheet was begun where nothing was done, and none that go
   expect(rideAfter(null, job(), [])).toBeNull()
 })
 
-it('tells the newest change of a parameter, and none where there was none', () => {
+it('shows the newest change of a parameter, and none where there was none', () => {
   const name = 'sensor_offset_counts'
   const history = [
     revision(12, [{ name: 'pedal_stop_ms', old: 1, new: 2 }]),
@@ -90,19 +90,19 @@ it('names the newest zero with its ride, and passes while the zero holds', () =>
   })
 })
 
-it('asks to watch a zero that has moved, and fails one at which the unit gives no assist', () => {
+it('warns of a zero that has moved, and fails one at which the unit gives no assist', () => {
   expect(checked(row('watch', 1.4))).toMatchObject({ passed: true })
   expect(checked(row('watch', 1.4))?.result).toContain('watch it')
   expect(checked(row('act', -3.2))).toMatchObject({ passed: false })
 })
 
-it('tells the trend where the rides show one', () => {
+it('shows the trend where the rides have one', () => {
   const trend = { per_month_nm: { value: 0.2 } } as unknown as SensorDrift['trend']
 
   expect(checked({ ...row('ok', 0.4), trend })?.result).toContain('0.20 Nm a month')
 })
 
-it('is not done where no ride told the zero', () => {
+it('is not done where no ride shows the zero', () => {
   expect(checked(row(null, 0))).toMatchObject({ result: en.drift_none, passed: null })
   expect(checked(null)).toMatchObject({ passed: null })
 })
@@ -119,7 +119,7 @@ it('fails a sensor that the unit calls faulty, with a reading and without', () =
   expect(zeroCheck({ channels: {}, faults_active: ['torque_link'] })?.passed).toBe(false)
 })
 
-it('tells a value that is missing now from one that the unit never sends', () => {
+it('distinguishes a value that is missing now from one that the unit never sends', () => {
   expect(zeroCheck({ channels: { rider_torque_nm: null } })).toMatchObject({
     result: en.no_reading,
     passed: null,

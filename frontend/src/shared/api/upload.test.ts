@@ -128,7 +128,7 @@ it.each([
   ['a network that drops out', ['network' as const]],
   ['a server that is busy', [503 as const, 503 as const]],
   ['an answer that is lost after its bytes arrived', ['lost_answer' as const]],
-])('arrives whole despite %s', async (_, faults) => {
+])('arrives complete despite %s', async (_, faults) => {
   const server = new TusServer([...faults])
   const shares: number[] = []
 

@@ -102,7 +102,7 @@ describe('a draft', () => {
     expect(draft.changes).toEqual([])
   })
 
-  it('undoes a whole drag at once, and redoes it', async () => {
+  it('undoes a complete drag at once, and redoes it', async () => {
     const { draft } = await loadedDraft()
     for (const value of [24, 23, 22]) draft.set('assist_cutoff_kmh', value, 'drag')
 
@@ -112,7 +112,7 @@ describe('a draft', () => {
     expect(draft.value('assist_cutoff_kmh')).toBe(22)
   })
 
-  it('keeps its edits when somebody else changes the unit', async () => {
+  it('keeps its edits when the unit is changed elsewhere', async () => {
     const { server, draft } = await loadedDraft()
     draft.set('assist_cutoff_kmh', 20)
 
@@ -134,7 +134,7 @@ describe('a draft', () => {
     expect(server.values['assist_cutoff_kmh']).toBe(25)
   })
 
-  it('takes a change back over what somebody else has written since', async () => {
+  it('takes a change back over what was written elsewhere since', async () => {
     const { server, draft } = await loadedDraft()
     draft.set('assist_cutoff_kmh', 20)
     const change = await draft.write('')
@@ -159,7 +159,7 @@ describe('a draft', () => {
     expect(server.reads).toBe(3)
   })
 
-  it('does not read what a write is about to tell', async () => {
+  it('does not read what a write is about to return', async () => {
     const { server, draft } = await loadedDraft()
     draft.set('assist_cutoff_kmh', 20)
 
@@ -192,7 +192,7 @@ describe('a draft', () => {
     expect(draft.changes.map((change) => change.parameter.name)).toEqual(['fixed_taper_end_kmh'])
   })
 
-  it('has what the unit answered, without asking again', async () => {
+  it('has what the unit answered, without another read', async () => {
     const { server, draft } = await loadedDraft()
     draft.set('assist_cutoff_kmh', 20)
     server.values['fixed_taper_end_kmh'] = 23.5 // as the unit rounded it
@@ -214,7 +214,7 @@ describe('a draft', () => {
     expect(server.reads).toBe(3)
   })
 
-  it('has written, even when the unit falls silent before it is looked at again', async () => {
+  it('has written, even when the unit falls silent before it is read again', async () => {
     const { server, draft } = await loadedDraft()
     server.values['gain_factory'] = 1
     await draft.load()
@@ -369,7 +369,7 @@ describe('an edit of a table', () => {
     expect([draft.count, draft.meanwhile]).toEqual([0, 0])
   })
 
-  it('stays whole where the unit has a table of another shape now', async () => {
+  it('stays complete where the unit has a table of another shape now', async () => {
     const { server, draft } = await opened()
     draft.set(RULES, table([0, 0, 'PB']))
     server.values[RULES] = [['ZO']]
@@ -406,7 +406,7 @@ describe('a draft that is not written yet', () => {
   }
   const visit = (server: FakeServer) => new Drafts(server as unknown as Server)
 
-  it('is there again after a reload, with its reason, on what the unit has by then', async () => {
+  it('is restored after a reload, with its reason, on what the unit has by then', async () => {
     browser()
     const server = new FakeServer()
     server.values[RULES] = table()

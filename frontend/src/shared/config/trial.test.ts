@@ -29,7 +29,7 @@ it('is not over while the unit is away, nor because another unit has none', () =
   expect(isOver(trial, unit(BEFORE, 'committed', 'asked'))).toBe(true)
 })
 
-it('is not over before the unit has said why, and over at once when it was kept', () => {
+it('is not over before the unit has reported why, and over at once when it was kept', () => {
   expect(isOver(trial, unit(BEFORE, 'committed', null))).toBe(false)
   expect(isOver(trial, unit(TRIED, 'committed', null))).toBe(true)
 })

@@ -26,13 +26,13 @@ describe('the chosen unit', () => {
     expect([watch.current?.id, watch.chosen_id]).toEqual(['sim-two', 'sim-two'])
   })
 
-  it('is nobody in particular while nobody chose, though a unit has no serial number', async () => {
+  it('is none while none is chosen, even if a unit has no serial number', async () => {
     expect((await watching(null)).chosen_id).toBeNull()
   })
 })
 
 describe('a unit that is plugged into another port', () => {
-  it('stays the one that is looked at', async () => {
+  it('stays the chosen one', async () => {
     const at = (id: string, unit_key: string) => ({ ...device(id, null), unit_key })
     let items = [at('bench', 'ebl:22'), at('usb0', 'ebl:11')]
     const watch = new DeviceWatch({ devices: async () => items } as unknown as Server, 'usb0')
@@ -57,7 +57,7 @@ describe('another unit in the place of the one that was there', () => {
     return watch
   }
 
-  it('is noted with the unit that was there, and every time', async () => {
+  it('is recorded with the unit that was there, and every time', async () => {
     const watch = await seeing('ebl:11', 'ebl:22', 'ebl:33')
 
     expect(watch.replaced?.unit_key).toBe('ebl:22')

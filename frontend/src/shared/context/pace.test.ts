@@ -31,7 +31,7 @@ it('stays below 100 in 30 s, and goes on while the hand moves', () => {
   expect(count).toBeLessThan(100)
 })
 
-it('asks one at a time: a slow answer is waited for, then the newest is asked', async () => {
+it('sends one at a time: a slow answer is waited for, then the newest is sent', async () => {
   const pace = new Pace(40)
   const requests: number[] = []
   const answer = (i: number) => () => {

@@ -55,7 +55,7 @@ it('shows a missing number as a dash, never as zero', () => {
   expect([locale.number(null), locale.number(NaN), locale.number(0)]).toEqual(['—', '—', '0'])
 })
 
-it('calls no share whole that is not', () => {
+it('rounds no share up to 100 %', () => {
   const locale = new Locale()
 
   expect([locale.share(0.99995), locale.share(1)]).toEqual(['99.9', '100.0'])

@@ -6,7 +6,7 @@ import { modeFindings } from './mode_findings'
 const finding = (code: string, where: string): Finding => ({ code, where, message: '', values: {} })
 const report = (...warnings: Finding[]): LintReport => ({ errors: [], warnings, notes: [] })
 
-it('tells a mode and a limit once, and nothing that is of a table', () => {
+it('shows a mode and a limit once, and nothing that is of a table', () => {
   const first = report(
     finding('demand_beyond_motor', 'modes[3]'),
     finding('cutoff_above_market', 'assist_cutoff_kmh'),

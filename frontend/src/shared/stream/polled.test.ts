@@ -33,7 +33,7 @@ const at = (t_s: number, speed_kmh: number): Newest => ({
   channels: { speed_kmh },
 })
 
-it('gives on each row once, in the channels that were asked for', async () => {
+it('passes each row on once, in the requested channels', async () => {
   const { headers, frames } = await fed(at(1, 20.5), at(1, 20.5), null, at(3, 21))
 
   expect(headers.map((header) => header.channels.map(({ name }) => name))).toEqual([
@@ -45,6 +45,6 @@ it('gives on each row once, in the channels that were asked for', async () => {
   ])
 })
 
-it('says nothing while nobody answers', async () => {
+it('stays silent while there is no answer', async () => {
   expect(await fed(null, null, null)).toEqual({ headers: [], frames: [] })
 })

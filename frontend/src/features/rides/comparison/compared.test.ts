@@ -25,7 +25,7 @@ it('names first what both have, in the order of interest', () => {
   ])
 })
 
-it('shows speed, the rider and what was asked of both motors, never what one of them gave', () => {
+it('shows speed, the rider and the demand of both motors, never the delivery of one', () => {
   expect(usualOf(channels)).toEqual([
     'speed_kmh',
     'rider_power_w',

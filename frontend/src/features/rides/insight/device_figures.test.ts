@@ -29,7 +29,7 @@ test('what the device stated has a name in words and a unit of the pages', () =>
   ])
 })
 
-test('what nobody knows keeps its name and has no unit', () => {
+test('an unknown figure keeps its name and has no unit', () => {
   const figure = { name: 'unknown_177', value: 400, unit: '' }
 
   expect(nameOf(figure, say)).toBe('unknown_177')

@@ -88,7 +88,7 @@ it('draws what the motor gave over what it would have given', () => {
   expect(gain?.lines.map((line) => line.name)).toEqual(['open_loop'])
 })
 
-it('compares what was asked with what would have been asked, and calls it so', () => {
+it('compares demanded torque with the replayed demand, and names it so', () => {
   const [row] = drawnRows(demandOnly(), drawnSeries(demandOnly()))
 
   expect(channels(demandOnly())).toEqual([

@@ -38,7 +38,7 @@ it('has a reason for each of eight figures of a ride with a heart rate only', ()
   expect(figures.every(({ note }) => note !== '' && !note.includes('—'))).toBe(true)
 })
 
-it('tells a motor torque that was only asked for from one that nobody recorded', () => {
+it('distinguishes a motor torque that was only demanded from one that was not recorded', () => {
   const demanded = figuresOf(ride([], {}, 'demanded'))
   expect(demanded['motor_energy']?.note).toBe('only requested, not measured')
   expect(figuresOf(ride([], {}))['motor_energy']?.note).toBe('no motor power recorded')

@@ -10,7 +10,7 @@ describe('a clock that was set in mid-ride', () => {
   const sentence = (value: number, locale = new Locale()) =>
     eventText({ t_s: 60, kind: 'clock_set', value }, locale, String)
 
-  it('is told with the way it went and how far', () => {
+  it('is described with its direction and distance', () => {
     expect(sentence(FROM_2020_MS)).toContain('forward by 2,522 d 8:58:30')
     expect(sentence(-3_600_000)).toContain('back by 1:00:00')
   })

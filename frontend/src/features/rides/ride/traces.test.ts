@@ -5,7 +5,7 @@ import type { Ride } from '$shared/api/types'
 import { Locale } from '$shared/i18n/locale.svelte'
 import { rowName, rowsFor, rowsOf } from './traces'
 
-it('draws what was asked of the motor behind what it gave', () => {
+it('draws the demanded torque behind the delivered one', () => {
   const { shown } = rowsFor(
     ['motor_torque_crank_nm', 'motor_torque_demanded_crank_nm'],
     'delivered',
@@ -15,7 +15,7 @@ it('draws what was asked of the motor behind what it gave', () => {
   expect(shown[0]?.lines.map((line) => line.name)).toEqual(['motor_demanded', 'motor_delivered'])
 })
 
-it('calls a motor torque asked where nobody measured it', () => {
+it('calls a motor torque demanded where it was not measured', () => {
   const { shown } = rowsFor(['motor_torque_crank_nm'], 'demanded')
 
   expect(shown.map((row) => row.key)).toEqual(['motor_torque_crank_asked'])

@@ -43,7 +43,7 @@ const sentence = (use: TableUse) => useSentence(locale, use, String)
 const without = (...codes: TableUse['rides_without'][number]['code'][]) =>
   codes.map((code, id) => ({ id, code, message: '' }))
 
-it('tells from which column on the table hardly acts', () => {
+it('says from which column on the table hardly acts', () => {
   expect(hardlyActing([0.9, 0.06, 0.02, 0.01, 0.01])).toEqual({ from: 3, share: 0.02 })
   expect(hardlyActing([0.5, 0.2, 0.1, 0.1, 0.1])).toBeNull()
   expect(hardlyActing([0.02, 0, 0, 0, 0.98])).toBeNull()
@@ -66,7 +66,7 @@ it('counts the rides it speaks of and those that say nothing', () => {
   expect(sentence(one)).toContain('One more ride says nothing')
 })
 
-it('says why no ride tells anything, and what to do', () => {
+it('says why no ride has data, and what to do', () => {
   const silent = (...codes: Parameters<typeof without>) =>
     sentence(used(nothing(), { rides: [], rides_without: without(...codes) }))
 
@@ -97,7 +97,7 @@ it('adds up the cells that are chosen', () => {
     .toContain('motor energy not known')
 })
 
-it('knows of no cell where no ride tells', () => {
+it('has no cell where no ride has data', () => {
   const nowhere = used(nothing(), { rides: [] })
   const corner = { top: 0, left: 0, bottom: 0, right: 0 }
 

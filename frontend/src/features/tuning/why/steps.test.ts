@@ -87,7 +87,7 @@ it('names the hardest clamp first, with its watts', () => {
   expect(tableCannotHelp(why())).toBe(true)
 })
 
-it('says what was told to the motor where nothing was measured', () => {
+it('says what the motor was commanded where nothing was measured', () => {
   const steady = why({ delivered_nm: null, steps: why().steps.slice(0, -1) })
 
   expect(sentence(steady, say, units)).toContain('the motor was commanded 75')
@@ -112,7 +112,7 @@ it.each([
   expect(sentence(why(changes), say, units)).toBe(expected)
 })
 
-it('puts what the law asks before the clamps, each bar where the one before ended', () => {
+it("puts the law's demand before the clamps, each bar where the one before ended", () => {
   const rows = waterfall(why())
 
   expect(rows.map(({ kind }) => kind).join(' ')).toBe(

@@ -33,7 +33,7 @@ it('joins what returns within a stroke and leaves out ramps and blinks', () => {
   expect(span?.limits).toEqual(['battery_current'])
 })
 
-it('tells a fault from the limit before it, and that it goes on', () => {
+it('separates a fault from the limit before it, and shows that it goes on', () => {
   const sensor = 2 ** FLAGS.fault_flags.torque_sensor
   const input = rows(
     6,

@@ -19,7 +19,7 @@ describe('a plan that is being typed', () => {
   })
   afterEach(() => vi.unstubAllGlobals())
 
-  it('is there again, with its reason', () => {
+  it('is restored, with its reason', () => {
     storeTyped(job(), typed, 'new cranks')
 
     expect(typedOf(job())).toMatchObject({ setup: { arm_m: 0.1725 }, reason: 'new cranks' })

@@ -28,7 +28,7 @@ it('a torque is in the reader’s units', () => {
   expect(sentenceOf(english, imperial, foot)).toMatch(/4\.6\slbf·ft, 3\.7\slbf·ft is allowed/)
 })
 
-it('what turns is told with its unit, what nobody tells with a dash', () => {
+it('what turns has its unit, what is not reported is a dash', () => {
   const finding = check('standing', null, { values: { wheel_kmh: 10, cadence_rpm: 60 } })
 
   expect(sentenceOf(english, imperial, finding)).toMatch(/wheel 6\.2\smph, crank 60\srpm, motor —/)
@@ -44,6 +44,6 @@ it('faults have their names', () => {
   )
 })
 
-it('a code of a newer server is told as the server says it', () => {
+it('a code of a newer server has the sentence of the server', () => {
   expect(sentenceOf(english, metric, check('of_tomorrow', 1))).toBe('as the server says it')
 })

@@ -30,7 +30,7 @@ it('is given up although its name came after the wish to end it', async () => {
   expect([job.job?.state, job.running]).toEqual(['cancelled', false])
 })
 
-it('stays given up when an older look is answered late', async () => {
+it('stays given up when an older poll is answered late', async () => {
   const poll = later<Proposal>()
   const server = {
     propose: () => Promise.resolve(named('riding')),

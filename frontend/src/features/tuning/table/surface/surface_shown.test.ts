@@ -32,7 +32,7 @@ it('shows the gain until the torque is known', () => {
   expect(pictureOf('delivered_nm', null, null, 60)).toBeNull()
 })
 
-it('tells what arrives, what was asked, and which limit took the rest', () => {
+it('shows what is delivered, what was demanded, and which limit took the rest', () => {
   const picture = pictureOf('delivered_nm', gain, torque, 60)
 
   expect(picture?.z).toEqual(torque.delivered_nm)
@@ -47,6 +47,6 @@ it('tells what arrives, what was asked, and which limit took the rest', () => {
   ])
 })
 
-it('tells power at the speed the crank turns with', () => {
+it('gives power at the cadence', () => {
   expect(pictureOf('demanded_w', gain, torque, 60)?.z[0]?.[1]).toBeCloseTo(60 * 2 * Math.PI)
 })
