@@ -24,7 +24,7 @@ const SHARED = {
   lint: ['api', 'config', 'context', 'i18n', 'ui', 'units'],
 }
 
-// The same of the features, which have the names of the backend's; nobody knows a page above them.
+// The same of the features, which have the names of the backend's; none imports a page above it.
 const FEATURES = {
   help: [],
   people: [],

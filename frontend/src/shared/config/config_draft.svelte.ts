@@ -295,7 +295,7 @@ export class ConfigDraft {
         this.begun = { ...this.begun, ...(Object.fromEntries(own) as Edits) }
       }
       // The factory's values move the bounds of others. The change is in the unit, whatever becomes
-      // of this look at it.
+      // of this read.
       const moved = this.parameters.some((row) => row.name in parameters && isFactorys(row))
       if (moved) await this.load().catch(() => (this.crc32 = null))
       return result

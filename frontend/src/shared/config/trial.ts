@@ -9,7 +9,7 @@ export interface Trial {
   ends_ms: number
 }
 
-/** kept: it is for good. Else the unit is back at what it had, and why: as asked, its time ran
+/** kept: it is for good. Else the unit is back at what it had, and why: as requested, its time ran
     out, it was restarted or lost power, or it reports none. */
 export type TrialEnd = 'kept' | 'asked' | 'time_out' | 'restart' | 'unknown'
 

@@ -42,8 +42,8 @@ export function reportsDelivered(channels: readonly { name: string }[] | undefin
   return channels?.some((channel) => channel.name === DEMANDED) ?? true
 }
 
-/** The average over the stroke is held while the reading it is made of is missing; what is held is
-    no measurement. */
+/** The average over the stroke stays frozen while the reading it is made of is missing: a frozen
+    value is no measurement. */
 export const MADE_OF: Readonly<Record<string, string>> = {
   rider_torque_filtered_nm: 'rider_torque_nm',
   torque_rate: 'rider_torque_nm',
@@ -63,7 +63,7 @@ export const CHANNELS = [
   'fault_flags_high',
 ]
 
-/** The newest values with null for what is only held. */
+/** The newest values with null for what is frozen. */
 export function measured(latest: Readonly<Record<string, number | null>>) {
   const stale = Object.keys(MADE_OF).filter((name) => latest[MADE_OF[name] ?? ''] === null)
   return { ...latest, ...Object.fromEntries(stale.map((name) => [name, null])) }

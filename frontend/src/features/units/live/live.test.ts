@@ -1,5 +1,5 @@
-/* Goal: what the page works out of the unit's rows is what the rows say: where something held the
-   motor back, how torque lies round the crank, and that what is only held is no measurement.
+/* Goal: what the page works out of the unit's rows is what the rows say: where something limited
+   the motor, how torque lies round the crank, and that a frozen value is no measurement.
    Method: rows made by hand, 100 a second; the balance by integrating a known torque. */
 import { FLAGS } from '$generated/registry'
 import { expect, it } from 'vitest'

@@ -12,7 +12,7 @@ export interface TraceLine {
   token: string
   /** Its name beside the others of its row, where it is not the channel's. */
   name?: string
-  /** Told apart by more than its colour. */
+  /** Distinguishes it by more than its colour. */
   style?: 'broad' | 'dashed'
 }
 
