@@ -24,7 +24,7 @@ const SHARED = {
   lint: ['api', 'config', 'context', 'i18n', 'ui', 'units'],
 }
 
-// The same of the features, which have the names of the backend's; nobody knows a page above them.
+// The same of the features, which have the names of the backend's; none imports a page above it.
 const FEATURES = {
   help: [],
   people: [],
@@ -41,9 +41,9 @@ const FEATURES = {
 const WIZARD = {
   job: [],
   words: ['job'],
-  found: ['job', 'words'],
-  steps: ['found', 'job', 'words'],
-  certificate: ['found', 'job', 'steps', 'words'],
+  results: ['job', 'words'],
+  steps: ['results', 'job', 'words'],
+  certificate: ['results', 'job', 'steps', 'words'],
 }
 
 const zone = (message, ...regexes) => [

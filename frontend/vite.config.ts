@@ -12,7 +12,7 @@ const MOST = [
   'context/(?!KeyList|words)',
   'device/(?!FaultMoment|fault_moment|words)|stream/(?!polled)|ui|units',
   'charts/(traces/plotly\\.ts|plot_axis\\.ts|[Ss]park)',
-  'config/(config_draft|drafts|elements|kept_drafts|limits|page_draft|parameter_text)',
+  'config/(config_draft|drafts|elements|stored_drafts|limits|page_draft|parameter_text)',
   'config/(ratchet|trial|two_tables)',
   'i18n',
 ]
@@ -31,7 +31,7 @@ const GROUPS = [
   chunk('fields', 'shared/(fields/(?!NumbersF)|config/ParameterForm)'),
   chunk('moment', 'shared/device/(FaultMoment|fault_moment|words)'),
   chunk('traces', 'shared/charts/traces/(Traces|SeriesT|ZoomB|trace_line|trace_window|ride_view)'),
-  chunk('apart', 'shared/config/(SettingsApart|SmallTable)'),
+  chunk('apart', 'shared/config/(SettingsDifference|SmallTable)'),
   chunk('rides', `features/(imports/(?!Table|table)|rides/(?!${OTHER_RIDES.join('|')}))`),
   chunk('replay', 'features/rides/replay/(?!proposals)'),
   chunk('ride', 'features/rides/ride/(?!from_file/)'),

@@ -20,7 +20,7 @@ from backend.calibration.job import Body, counting, is_written, require_setup, s
 from backend.calibration.judgement import Limits
 from backend.calibration.plain import from_plain, to_plain
 from backend.calibration.types import (
-    CaptureTold,
+    CaptureSummary,
     ClockSet,
     JobState,
     JobSummary,
@@ -158,7 +158,7 @@ def summary_of(job: StoredCalibration, worked: Worked | None = None) -> JobSumma
 
 def capture_views(
     body: Body, captures: Sequence[StoredCapture], worked: Worked | None
-) -> Iterator[CaptureTold]:
+) -> Iterator[CaptureSummary]:
     """All of them, struck ones too; a job has no capture before its setup."""
     setup = setup_in(body)
     if setup is None:
@@ -168,7 +168,7 @@ def capture_views(
     refusals = () if worked is None else worked.refusals
     for one in captures:
         capture = from_plain(Capture, one.body)
-        yield CaptureTold(
+        yield CaptureSummary(
             number=capture.number,
             state=capture.state,
             load_nm=capture.state.load_nm(setup),

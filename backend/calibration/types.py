@@ -53,7 +53,7 @@ class GravityAt(RequestBody):
     height_standard_m: float = Field(default=50.0, ge=0, le=1000)
 
 
-class GravityGiven(RequestBody):
+class GravityInput(RequestBody):
     gravity_ms2: float = Field(ge=9.76, le=9.84)
     standard_ms2: float = Field(ge=0, le=0.05, description="Its standard uncertainty.")
 
@@ -72,7 +72,7 @@ class SetupRequest(RequestBody):
 
     arm_m: float = Field(ge=0.05, le=1.0, description="From the spindle's axis to the pedal's.")
     arm_limit_m: float = Field(ge=0, le=0.05, description="Half width of what it may be.")
-    gravity: GravityAt | GravityGiven
+    gravity: GravityAt | GravityInput
     masses: list[MassRequest] = Field(min_length=1, max_length=50)
     loads_kg: list[Annotated[float, Field(gt=0, le=200)]] = Field(
         min_length=1, max_length=50, description="What is hung on in turn, without the zero."
@@ -137,7 +137,7 @@ class Struck:
 
 
 @described
-class CaptureTold:
+class CaptureSummary:
     """One capture, without its raw counts, which the certificate has."""
 
     number: int
@@ -265,7 +265,7 @@ class Job(JobSummary):
     """Index into `steps`; null: all are done."""
     checks: tuple[Check, ...]
     """Of this moment; empty without a connection."""
-    captures: tuple[CaptureTold, ...]
+    captures: tuple[CaptureSummary, ...]
     worked: Worked | None
     """All that follows from setup and captures."""
     fitted_at: datetime | None

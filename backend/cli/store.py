@@ -41,7 +41,7 @@ def print_check(result: dict[str, Any]) -> None:
         "rides in it": database["rides"],
         "folder": folder["path"],
         "folder of store": folder["identity"],
-        "objects whole": objects["whole"],
+        "sound objects": objects["sound"],
         "bytes": objects["bytes"],
     }
     for name, value in lines.items():

@@ -9,7 +9,7 @@ from pydantic import Field
 
 from backend.core.described import Answer, RequestBody
 from backend.formats.questions import TableAnswer, TableColumn
-from backend.imports.records import KnownTable
+from backend.imports.records import AnsweredTable
 from backend.store.uploads import UploadParts
 
 
@@ -41,7 +41,7 @@ class UploadList(Answer):
     next: str | None
 
 
-class SaidOfTable(RequestBody):
+class TableAnswerRequest(RequestBody):
     """What an owner says of a table. It is kept for every file with the same header."""
 
     time_zone: str | None = Field(
@@ -62,8 +62,8 @@ class TableQuestion(Answer):
     answer: TableAnswer | None
 
 
-class KnownTables(Answer):
-    items: list[KnownTable]
+class AnsweredTables(Answer):
+    items: list[AnsweredTable]
 
 
 class LogDownload(Answer):

@@ -17,7 +17,7 @@ HEADER = re.compile(r"[0-9a-f]{64}")
 
 
 @described
-class KnownTable:
+class AnsweredTable:
     """A kind of table that was answered for."""
 
     header_sha256: str
@@ -33,7 +33,7 @@ class TableAnswers:
     def __init__(self, objects: Objects) -> None:
         self._objects = objects
 
-    def get(self, header_sha256: str) -> KnownTable | None:
+    def get(self, header_sha256: str) -> AnsweredTable | None:
         """What is known of a header, None for nothing; a damaged file is nothing, too."""
         if not HEADER.fullmatch(header_sha256):
             return None
@@ -45,7 +45,7 @@ class TableAnswers:
         if body is None or answer is None:
             return None
         columns = tuple(str(name) for name in body.get("columns", ()))
-        return KnownTable(header_sha256, str(body.get("kind", "")), columns, answer)
+        return AnsweredTable(header_sha256, str(body.get("kind", "")), columns, answer)
 
     def save(self, question: TableQuestion, answer: TableAnswer) -> None:
         """Keep what was said, in place of what was said before. Raises StoreError."""
@@ -63,7 +63,7 @@ class TableAnswers:
             raise NotFound(f"Nothing was said of a table with the header {header_sha256}.")
         self._objects.remove(key_of(header_sha256))
 
-    def all(self) -> Iterator[KnownTable]:
+    def all(self) -> Iterator[AnsweredTable]:
         """Everything that was said, by header."""
         for key in self._objects.table_keys():
             stored = self.get(key.removeprefix(f"{TABLES}/").removesuffix(".json"))

@@ -8,7 +8,7 @@ from fastapi import APIRouter, Response
 from fastapi.concurrency import run_in_threadpool
 
 from backend.imports.mapping import TableMapping
-from backend.imports.models import KnownTables, SaidOfTable, TableQuestion, Upload
+from backend.imports.models import AnsweredTables, TableAnswerRequest, TableQuestion, Upload
 from backend.web.problem import refusals
 from backend.web.services import provided
 
@@ -25,12 +25,12 @@ def get_mapping(upload_id: str, tables: TheTableMapping) -> Any:
 
 
 @router.put("/uploads/{upload_id}/mapping", operation_id="put_mapping", response_model=Upload)
-async def put_mapping(upload_id: str, body: SaidOfTable, tables: TheTableMapping) -> Any:
+async def put_mapping(upload_id: str, body: TableAnswerRequest, tables: TheTableMapping) -> Any:
     """Says it; the file is read, as is every other that waits for the same answer."""
     return await run_in_threadpool(tables.say, upload_id, body.model_dump())
 
 
-@router.get("/tables", operation_id="list_tables", response_model=KnownTables)
+@router.get("/tables", operation_id="list_tables", response_model=AnsweredTables)
 def list_tables(tables: TheTableMapping) -> Any:
     """What was said of which tables, by the hash of their header."""
     return tables.answered_tables()

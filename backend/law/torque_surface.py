@@ -36,12 +36,12 @@ Floats = npt.NDArray[np.float32]
 class TorqueSurface:
     """At the crank, (n, m) each, rows = speeds.
 
-    asked_nm: by the mode's law. given_nm: what is left of it after every limit. limit_flags: bits
-    of the registry, of what held it back.
+    demanded_nm: by the mode's law. delivered_nm: what is left of it after every limit.
+    limit_flags: bits of the registry, of what limited it.
     """
 
-    asked_nm: Floats
-    given_nm: Floats
+    demanded_nm: Floats
+    delivered_nm: Floats
     limit_flags: npt.NDArray[np.uint16]
 
 
@@ -83,8 +83,8 @@ def torque_surface(
     shaped.ravel()[path] = outputs
     demanded = shaped["assist_ratio"] * shaped["rider_torque_filtered_nm"]
     return TorqueSurface(
-        asked_nm=np.asarray(demanded, np.float32),
-        given_nm=np.asarray(shaped["motor_torque_nm"] * config["gear_ratio"], np.float32),
+        demanded_nm=np.asarray(demanded, np.float32),
+        delivered_nm=np.asarray(shaped["motor_torque_nm"] * config["gear_ratio"], np.float32),
         limit_flags=shaped["limit_flags"],
     )
 

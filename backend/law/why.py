@@ -118,7 +118,7 @@ def why_steady(
     config: Mapping[str, Any],
     readings: Mapping[str, float],
     torque_rate: float,
-    held_s: float,
+    hold_s: float,
     step_s: float = law.STEP_S,
 ) -> Why:
     """A state that was held for so long from rest, its torque rising all the while at a rate.
@@ -132,7 +132,7 @@ def why_steady(
         released = rows[-1:].copy()
         released["walk_button"] = 0
         one.run(released)
-        one.hold(rows[-1:], torque_rate, round(held_s / step_s))
+        one.hold(rows[-1:], torque_rate, round(hold_s / step_s))
         return _why_of(config, one.trace(rows[-1:]), rows[-1], None)
     except (law.LawRefused, KeyError, TypeError, ValueError) as refused:
         raise InvalidRequest(f"why: {refused}", "why_refused") from refused

@@ -87,8 +87,8 @@ class Preview:
         return {
             "speeds_kmh": list(speeds_kmh),
             "torque_rates": list(torque_rates),
-            "asked_nm": surface.asked_nm.tolist(),
-            "given_nm": surface.given_nm.tolist(),
+            "demanded_nm": surface.demanded_nm.tolist(),
+            "delivered_nm": surface.delivered_nm.tolist(),
             "limit_flags": surface.limit_flags.tolist(),
             "cadence_rpm": law.CADENCE_RPM,
             "crank_rad_per_s": law.CADENCE_RPM * RADIANS_PER_S_PER_RPM,

@@ -35,13 +35,13 @@ class ParameterView(ParameterRow):
 class LastKnown:
     """A unit's configuration as it was last read from it, for reading only.
 
-    seen_at: when the unit was last there; None if that was not noted. noted_at: when the
+    seen_at: when the unit was last there; None if unknown. recorded_at: when the
     configuration was read.
     """
 
     unit_key: str
     seen_at: datetime | None
-    noted_at: datetime
+    recorded_at: datetime
     generation: int | None
     crc32: int | None
     parameters: tuple[ParameterView, ...]

@@ -36,7 +36,7 @@ class WhySteady:
     def __call__(self, state: Json, changes: Json, device_id: str | None = None) -> dict[str, Any]:
         """The answer as in the API.
 
-        state: speed_kmh, torque_rate, rider_torque_nm, cadence_rpm, held_s; mode, or None for the
+        state: speed_kmh, torque_rate, rider_torque_nm, cadence_rpm, hold_s; mode, or None for the
         one at start; and other inputs of the law by their names, None where not known. changes: as
         of `changed_config`. device_id: whose configuration is the base; without it the law's
         defaults. Raises InvalidRequest, NotFound, NoAnswer, CapabilityMissing.
@@ -48,10 +48,10 @@ class WhySteady:
             base, source = unit.read_config().parameters, "unit"
         config = {**law_defaults(), **changed_config(base, **changes)}
         readings_given = {name: value for name, value in state.items() if value is not None}
-        torque_rate, held_s = readings_given.pop("torque_rate"), readings_given.pop("held_s")
+        torque_rate, hold_s = readings_given.pop("torque_rate"), readings_given.pop("hold_s")
         readings_given.setdefault("mode", config["assist_mode_at_start"])
-        result = law.why_steady(config, readings_given, torque_rate, held_s)
-        moment = {"kind": "steady", "ride_id": None, "t_s": None, "held_s": held_s}
+        result = law.why_steady(config, readings_given, torque_rate, hold_s)
+        moment = {"kind": "steady", "ride_id": None, "t_s": None, "hold_s": hold_s}
         return why_json(result, config, readings_given, moment, source)
 
 

@@ -1,4 +1,4 @@
-// Runs vitest and closes with one plain line, "vitest: N passed, N failed", for whoever reads logs.
+// Runs vitest and closes with one plain line, "vitest: N passed, N failed", for readers of logs.
 import { spawnSync } from 'node:child_process'
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs'
 import { tmpdir } from 'node:os'

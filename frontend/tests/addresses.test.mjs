@@ -1,5 +1,5 @@
-/* Goal: no page tells an address from the root of the site: a proxy may have put the server below a
-   path. `$shared/api/place` says how they are told.
+/* Goal: no page uses an address from the root of the site: a proxy may have put the server below a
+   path. `$shared/api/place` shows how they are built.
    Method: links and moves in the sources. The client of the API has its own base. */
 import { readdirSync, readFileSync } from 'node:fs'
 import { expect, it } from 'vitest'
@@ -10,7 +10,7 @@ const sources = readdirSync('src', { recursive: true, withFileTypes: true })
   .filter((file) => /\.(svelte|ts)$/.test(file.name) && !/\.test\.ts$/.test(file.name))
   .map((file) => `${file.parentPath}/${file.name}`)
 
-it('no page tells an address from the root of the site', () => {
+it('no page uses an address from the root of the site', () => {
   const found = sources.filter((file) => FROM_THE_ROOT.test(readFileSync(file, 'utf8')))
 
   expect(found).toEqual([])

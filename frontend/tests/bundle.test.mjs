@@ -73,7 +73,7 @@ describe.skipIf(!built)('the built pages', () => {
     expect(loaded(entry()).join()).not.toContain('plotly')
   })
 
-  it('ask nobody else for scripts, styles or fonts', () => {
+  it('load no scripts, styles or fonts from other hosts', () => {
     expect(readFileSync('dist/index.html', 'utf8')).not.toMatch(/(src|href)="(https?:)?\/\//)
     for (const name of files.filter((file) => file.endsWith('.css'))) {
       expect(readFileSync(`${folder}/${name}`, 'utf8')).not.toMatch(/url\((["']?)(https?:)?\/\//)

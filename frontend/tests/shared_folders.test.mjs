@@ -40,9 +40,9 @@ it('a feature knows another one way only', async () => {
 it('the rooms of the wizard know each other one way', async () => {
   const wizard = 'src/features/calibration/wizard'
 
-  expect(await complaints(`${wizard}/found/planted.ts`, '../steps/instruction')).not.toEqual([])
-  expect(await complaints(`${wizard}/found/planted.ts`, '../../zero')).not.toEqual([])
-  expect(await complaints(`${wizard}/steps/planted.ts`, '../found/figures')).toEqual([])
+  expect(await complaints(`${wizard}/results/planted.ts`, '../steps/instruction')).not.toEqual([])
+  expect(await complaints(`${wizard}/results/planted.ts`, '../../zero')).not.toEqual([])
+  expect(await complaints(`${wizard}/steps/planted.ts`, '../results/figures')).toEqual([])
 })
 
 it('a folder imports what stands above it, and its own files', async () => {

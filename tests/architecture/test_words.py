@@ -33,10 +33,8 @@ RETIRED = [
     "whole",
     "lose",
 ]
-STORED_OR_WIRE = {
-    "as_found",
-}
-"""Names that a released file, table or frame has."""
+STORED_OR_WIRE = {"rows_kept"}
+"""Names that a stored file, a table or a frame has."""
 PYTHON = ("backend", "spindle", "sim_device", "firmware_protocol", "tools")
 DEFINED = re.compile(r"\b(?:function|class|interface|type|const|let)\s+(\w+)")
 

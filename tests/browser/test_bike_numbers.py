@@ -57,16 +57,16 @@ def typed(page: Page, label: str, value: str) -> None:
 def test_a_rolled_wheel_is_told_beside_the_unit_s_and_written(
     desk: Desk, server: SpindleServer, standing: str
 ) -> None:
-    kept_m = server.get(f"/devices/{standing}/config")["parameters"][KEPT]
+    stored_m = server.get(f"/devices/{standing}/config")["parameters"][KEPT]
     page = desk.open("/sensor")
     panel = page.get_by_test_id("bike-numbers")
 
     typed(page, "Turns a roll", "1")
     for number, error_m in ((1, -0.001), (2, 0.001)):
-        typed(page, f"Roll {number}", f"{1.02 * kept_m + error_m:.4f}")
+        typed(page, f"Roll {number}", f"{1.02 * stored_m + error_m:.4f}")
     panel.get_by_role("button", name="Measure").click()
 
-    found = page.get_by_test_id("wheel-found")
+    found = page.get_by_test_id("wheel-result")
     expect(found.locator("[data-agrees=false]")).to_contain_text(
         re.compile(r"shows 25\.0.km/h .* the bike goes 25\.5\d.km/h")
     )
@@ -76,8 +76,8 @@ def test_a_rolled_wheel_is_told_beside_the_unit_s_and_written(
     page.click("dialog >> text=Write to the unit")
     expect(page.locator("[role=status]", has_text="verified")).to_be_visible()
     written = server.get(f"/devices/{standing}/config")["parameters"][KEPT]
-    assert written == pytest.approx(1.02 * kept_m, abs=1e-4)
-    server.ask("PATCH", f"/devices/{standing}/config", json={"parameters": {KEPT: kept_m}})
+    assert written == pytest.approx(1.02 * stored_m, abs=1e-4)
+    server.ask("PATCH", f"/devices/{standing}/config", json={"parameters": {KEPT: stored_m}})
 
 
 def test_a_climb_says_whether_it_agrees_and_where_its_energy_went(

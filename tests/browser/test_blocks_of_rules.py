@@ -110,15 +110,15 @@ def test_a_rule_tells_what_a_push_comes_to_and_how_strongly_it_fires(
     desk: Desk, riding: str
 ) -> None:
     page = open_tune(desk)
-    felt = page.get_by_test_id("felt-here")
+    feel = page.get_by_test_id("rule-feel")
     cell(page, 0, 0).focus()
     # Sport gives once the push and its gain: 30 x 1.3.
-    expect(felt).to_have_text(
+    expect(feel).to_have_text(
         "At 30.0 Nm from you: 39.0 Nm requested, 39.0 Nm delivered at the crank."
     )
     page.keyboard.press("5")
     # The centroid of the last set is 0.4 + 2/3 of 0.1; 250 W at one turn a second are 39.8 Nm.
-    expect(felt).to_have_text(
+    expect(feel).to_have_text(
         "At 30.0 Nm from you: 44.0 Nm requested, 39.8 Nm delivered at the crank. "
         "In the unit 39.0 Nm are requested."
     )

@@ -71,7 +71,7 @@ def test_two_ticked_rides_are_compared_over_their_way(desk: Desk, rides: dict[st
     assert figure(page, "distance_km") == ["3.00", "3.00", "0.00"]
     assert figure(page, "duration_s") == ["10:00", "6:40", "−3:20"]
     assert figure(page, "motor_wh")[0].startswith("—")
-    expect(page.get_by_test_id("same-way")).to_contain_text("100 % of A")
+    expect(page.get_by_test_id("route-overlap")).to_contain_text("100 % of A")
 
     page.get_by_role("button", name="Distance", exact=True).first.click()
     expect(page).to_have_url(re.compile("by=distance"))

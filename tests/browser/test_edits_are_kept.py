@@ -22,7 +22,7 @@ from tests.fakes.server import SpindleServer
 
 pytestmark = pytest.mark.slow
 
-KEPT = "[data-testid=kept-draft]"
+KEPT = "[data-testid=stored-draft]"
 MEANWHILE = "[data-testid=meanwhile]"
 NEW_VERSION = "[data-testid=new-version]"
 REASON = "dialog .reason input"
@@ -61,10 +61,10 @@ def test_an_edit_is_of_a_rule_and_another_tab_s_stays(
 
     review(page)
 
-    beside = page.get_by_test_id("changed-beside")
+    beside = page.get_by_test_id("concurrent-changes")
     expect(beside).to_contain_text(f"{old} → {new}")
     expect(page.locator("dialog tbody tr")).to_have_count(1)
-    desk.picture("changed-beside")
+    desk.picture("concurrent-changes")
     page.click(WRITE)
     expect(page.locator("dialog")).to_have_count(0)
     rules = rules_of(server, standing)
@@ -88,7 +88,7 @@ def test_of_a_rule_that_both_changed_the_review_says_so(
 
     row = page.locator("dialog tbody tr")
     expect(row).to_contain_text(f"it was {old} when you began")
-    expect(page.get_by_test_id("changed-beside")).to_have_count(0)
+    expect(page.get_by_test_id("concurrent-changes")).to_have_count(0)
     expect(row.locator(".new")).to_have_text("NB")
 
 

@@ -115,7 +115,7 @@ def test_what_was_changed_is_told_while_the_unit_is_silent(
     # The rides since are the server's to tell as well.
     changes.get_by_role("button", name="Rides since").first.click()
     since = page.get_by_test_id("since-change")
-    expect(since.locator("[data-tells=too_few]")).to_be_visible()
+    expect(since.locator("[data-verdict=too_few]")).to_be_visible()
     expect(since.locator("[data-since=motor_wh_per_km] td")).to_have_count(2)
     expect(since).to_contain_text("Other roads, another wind")
 

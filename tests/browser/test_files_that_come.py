@@ -82,7 +82,7 @@ def test_a_table_that_does_not_say_its_units_is_asked_about_once(
     assert {ride["started_at"][:16] for ride in rides} == {"2026-05-01T09:00", "2026-05-02T09:00"}
     assert [ride["summary"]["distance_km"] for ride in rides] == [pytest.approx(0.6, 0.02)] * 2
     page.goto(f"{fresh.url}/settings")
-    known = page.get_by_test_id("known-tables")
+    known = page.get_by_test_id("answered-tables")
     expect(known).to_contain_text("speed: m/s · Europe/Dublin")
     known.get_by_role("button", name="Forget what was said of time, speed, cadence").click()
     expect(known).to_have_count(0)

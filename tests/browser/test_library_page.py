@@ -66,8 +66,8 @@ def test_a_dealer_keeps_opens_compares_and_takes_back(
     page = desk.open("/tune/library?a=even&b=strong-start")
 
     assert "17 rules differ" in compared(page)
-    felt = page.locator("tr[data-felt=start_s] td")
-    assert felt.all_inner_texts() == ["12.6 s", "10.2 s"]
+    feel = page.locator("tr[data-feel=start_s] td")
+    assert feel.all_inner_texts() == ["12.6 s", "10.2 s"]
     expect(page.locator("[data-entry=even] [data-figure=start_s]")).to_contain_text("12.6 s")
 
     # Open never writes: the entry is a draft.

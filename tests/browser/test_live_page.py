@@ -142,7 +142,7 @@ def test_what_held_the_motor_back_is_shaded_and_named_a_while(
     desk: Desk, server: SpindleServer, riding: str
 ) -> None:
     page = desk.open("/live")
-    held = page.get_by_test_id("held-back")
+    held = page.get_by_test_id("motor-limits")
     desk.until("Number(document.querySelector('[data-draws]')?.dataset.draws) > 10")
 
     # Under way, so that braking lasts: what is over at once is not listed.

@@ -80,8 +80,8 @@ def test_a_word_of_the_field_is_explained_where_it_stands_and_by_touch(
     page.get_by_role("button", name="Taper").tap()
 
     explained = page.get_by_role("dialog", name="Help")
-    expect(explained.locator(".asked")).to_contain_text("ratio falls with speed")
-    expect(explained.locator(".asked")).to_be_in_viewport()
+    expect(explained.locator(".topic")).to_contain_text("ratio falls with speed")
+    expect(explained.locator(".topic")).to_be_in_viewport()
     explained.get_by_role("searchbox").fill("back-emf")
     expect(explained.get_by_role("region", name="Words").locator("dt")).to_have_text(["Back-EMF"])
     page.evaluate(axe)

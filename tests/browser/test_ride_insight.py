@@ -18,7 +18,7 @@ def test_a_ride_tells_its_energy_effort_and_health(
     desk: Desk, server: SpindleServer, axe: str
 ) -> None:
     ride = long_ride(server)
-    told = server.get(f"/rides/{ride}/energy")["whole"]
+    told = server.get(f"/rides/{ride}/energy")["total"]
     page = desk.open(f"/rides/{ride}")
 
     energy = page.get_by_test_id("energy")
@@ -28,7 +28,7 @@ def test_a_ride_tells_its_energy_effort_and_health(
     health.get_by_role("button").first.click()
     page.wait_for_url("**from_s=2120**")
     effort = page.get_by_test_id("effort")
-    expect(effort).to_contain_text("your threshold power is not told")
+    expect(effort).to_contain_text("your threshold power is not set")
     desk.picture("ride-insight", full=True)
     page.evaluate(axe)
     assert page.evaluate(JUDGE) == []

@@ -51,7 +51,7 @@ def open_square(desk: Desk, number: int) -> Page:
     drop_file(page, f"square {number}.fit", square(START_S + 100_000 * number))
     page.click("text=Open the ride")
     page.wait_for_selector(f"{TRACES}[data-draws]")
-    page.wait_for_selector("[data-testid=track-map] path.piece")
+    page.wait_for_selector("[data-testid=track-map] path.segment")
     return page
 
 
@@ -73,8 +73,8 @@ def test_the_map_is_open_where_there_was_no_position(desk: Desk) -> None:
 
     # 12 km in all: a mark every 2 km, without the two that lie in gaps or at the end.
     expect(track.get_by_test_id("km-mark").first).to_contain_text("2")
-    expect(track.locator("path.piece")).to_have_count(3)
-    ends = track.locator("path.piece").evaluate_all(
+    expect(track.locator("path.segment")).to_have_count(3)
+    ends = track.locator("path.segment").evaluate_all(
         "paths => paths.map((p) => [p.getPointAtLength(0),"
         " p.getPointAtLength(p.getTotalLength())].map(({x, y}) => [x, y]))"
     )

@@ -238,7 +238,7 @@ def test_a_motor_torque_that_was_only_asked_is_called_so(tuner: Desk, ride: int)
     answered(page)
 
     expect(page.locator(SENTENCE)).to_contain_text("as ridden it is not known")
-    expect(page.locator("[data-figure=asked_nm]")).to_be_visible()
+    expect(page.locator("[data-figure=demanded_nm]")).to_be_visible()
     expect(page.locator("[data-figure=wh_per_km] td").first).to_have_text("—")
     expect(page.get_by_test_id("try-answer")).to_contain_text("the two are not compared")
     expect(page.locator("[data-source=defaults]")).to_contain_text("not known")

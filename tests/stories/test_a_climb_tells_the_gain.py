@@ -121,7 +121,7 @@ def test_a_planted_gain_is_found_and_gone_once_it_is_written(
     assert turned["turns"] == pytest.approx(wheel_turns * 14 / 44, rel=2e-3)
     by_the_crank = {"turns": turned["turns"] * 44 / 14}
     pulses = server.ask("POST", "/calibration/wheel/pulses", json=window | by_the_crank)["pulses"]
-    assert (pulses["whole"], pulses["agrees"]) == (36, True)
+    assert (pulses["nearest_integer"], pulses["agrees"]) == (36, True)
 
     gain = server.get(f"/devices/{device}/config")["parameters"][GAIN]
     server.configure(device, **{GAIN: gain / PLANTED_GAIN})
@@ -145,7 +145,7 @@ def test_a_rolled_wheel_is_told_beside_the_unit_s(server: SpindleServer) -> None
 
     told = server.ask("POST", "/calibration/wheel/roll-out", json=rolls)
 
-    beside = told["beside"]
+    beside = told["unit_comparison"]
     assert (beside["agrees"], beside["in_band"]) == (False, True)
     assert told["measured"]["circumference_m"] == pytest.approx(1.03 * CIRCUMFERENCE_M, abs=1e-4)
     assert beside["difference_pct"] == pytest.approx(3.0, abs=0.01)
@@ -153,7 +153,7 @@ def test_a_rolled_wheel_is_told_beside_the_unit_s(server: SpindleServer) -> None
     assert limit["true_kmh"] == pytest.approx(1.03 * limit["limit_kmh"], rel=1e-4)
     assert not limit["lawful"]
     same = rolls | {"distances_m": [2.0734, 2.0735], "turns": 1}
-    assert server.ask("POST", "/calibration/wheel/roll-out", json=same)["beside"]["agrees"]
+    assert server.ask("POST", "/calibration/wheel/roll-out", json=same)["unit_comparison"]["agrees"]
     ride = server.get("/rides")["items"]
     if ride:
         body = {"ride_id": ride[0]["id"]}

@@ -102,9 +102,9 @@ def test_a_moment_of_the_ride_is_explained_down_to_what_the_motor_gave(
     held = workshop.ask("POST", f"/devices/{device}/why", json=steady)
     unconnected = workshop.ask("POST", "/why", json=steady)
 
-    given_nm = float(rows["motor_torque_nm"][1500]) * config["gear_ratio"]
-    assert why["delivered_nm"] == pytest.approx(given_nm, abs=0.01)
-    assert sum(step["torque_nm"] for step in why["steps"]) == pytest.approx(given_nm, abs=0.01)
+    delivered_nm = float(rows["motor_torque_nm"][1500]) * config["gear_ratio"]
+    assert why["delivered_nm"] == pytest.approx(delivered_nm, abs=0.01)
+    assert sum(step["torque_nm"] for step in why["steps"]) == pytest.approx(delivered_nm, abs=0.01)
     assert why["gain"] == pytest.approx(float(rows["fuzzy_gain"][1500]), abs=0.01)
     assert 1 <= len(why["rules"]) <= 4
     assert (held["config_source"], unconnected["config_source"]) == ("unit", "given")
@@ -140,7 +140,7 @@ def test_a_ride_tells_where_its_energy_went(workshop: SpindleServer, ride: dict[
 
     summary = ride["summary"]
     for figure in ("rider_wh", "motor_wh", "battery_wh", "distance_km"):
-        assert energy["whole"][figure] == pytest.approx(summary[figure], rel=1e-3)
+        assert energy["total"][figure] == pytest.approx(summary[figure], rel=1e-3)
     assert energy["modes"][0]["name"], "its configuration is known"
     assert energy["range_refused"] in {"short_way", "little_used"}
     assert effort["power"]["reference"] == 160.0

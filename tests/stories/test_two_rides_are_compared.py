@@ -54,7 +54,7 @@ def test_figures_and_settings_stand_side_by_side(pair: tuple[SpindleServer, list
     assert {one["name"] for one in settings["differences"]} == {"fuzzy_rules", "torque_filter_s"}
     (table,) = settings["tables"]
     assert [(cell["row"], cell["column"]) for cell in table["cells"]] == [CELL]
-    assert (told["motor_torque"], told["no_way"]) == ("alike", "neither")
+    assert (told["motor_torque"], told["no_route"]) == ("alike", "neither")
 
 
 def test_the_traces_lie_on_one_axis(pair: tuple[SpindleServer, list[int]]) -> None:

@@ -60,10 +60,10 @@ def row(name: str, columns: dict[str, Any], config: dict[str, Any], step_s: floa
     """One scenario's line."""
     readings = law.law_readings(config, law_inputs(columns))
     told_nm = np.asarray(law.replay(config, step_s=step_s, **readings).motor_torque_nm)
-    given_nm = columns["motor_torque_nm"]
-    driven = (told_nm > 0.0) | (given_nm > 0.0)
+    delivered_nm = columns["motor_torque_nm"]
+    driven = (told_nm > 0.0) | (delivered_nm > 0.0)
     gear = config["gear_ratio"]
-    missed_nm = np.abs(given_nm - told_nm)[driven & np.isfinite(given_nm)] * gear
+    missed_nm = np.abs(delivered_nm - told_nm)[driven & np.isfinite(delivered_nm)] * gear
     median_nm, most_nm = np.percentile(missed_nm, [50, 99])
     torque_nm = np.percentile(told_nm[driven], 99) * gear
     seconds = len(missed_nm) * step_s

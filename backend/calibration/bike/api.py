@@ -13,9 +13,9 @@ from backend.calibration.bike.types import (
     Cadence,
     CadenceRequest,
     ClimbRequest,
-    ClimbTold,
+    ClimbResult,
+    PulseComparison,
     PulsesRequest,
-    PulsesTold,
     RollOut,
     SlopeRidden,
     Wheel,
@@ -24,7 +24,7 @@ from backend.calibration.bike.types import (
 from backend.calibration.bike.wheel import ROOT_3
 from backend.calibration.bike.wheel_measure import TrackQuestion
 from backend.calibration.setup import ANYWHERE_LIMIT_MS2, ANYWHERE_MS2, gravity_at
-from backend.calibration.types import GravityAt, GravityGiven
+from backend.calibration.types import GravityAt, GravityInput
 from backend.rides.rows import Window
 from backend.web.problem import DAMAGED, refusals
 from backend.web.services import provided
@@ -50,7 +50,7 @@ def track_wheel(body: WheelByTrack, bike_numbers: Provided) -> Wheel:
     """The circumference from the positions of a ride against the turns of its wheel; refused by
     name where the rides cannot tell."""
     window = Window(body.ride_id, body.from_s, body.to_s)
-    question = TrackQuestion(window, body.track_ride_id, body.told_circumference_m)
+    question = TrackQuestion(window, body.track_ride_id, body.device_circumference_m)
     return bike_numbers.wheel.tracked(question, body.device_id)
 
 
@@ -59,7 +59,7 @@ def track_wheel(body: WheelByTrack, bike_numbers: Provided) -> Wheel:
     operation_id="count_wheel_pulses",
     responses={**refusals(404), **DAMAGED},
 )
-def count_wheel_pulses(body: PulsesRequest, bike_numbers: Provided) -> PulsesTold:
+def count_wheel_pulses(body: PulsesRequest, bike_numbers: Provided) -> PulseComparison:
     """The speed sensor's pulses in a turn of its wheel, from a ride of a wheel turned by hand."""
     window = Window(body.ride_id, body.from_s, body.to_s)
     return bike_numbers.pulses(window, body.turns)
@@ -80,7 +80,7 @@ def check_cadence(body: CadenceRequest, bike_numbers: Provided) -> Cadence:
     operation_id="check_by_climb",
     responses={**refusals(404), **DAMAGED},
 )
-def check_by_climb(body: ClimbRequest, bike_numbers: Provided) -> ClimbTold:
+def check_by_climb(body: ClimbRequest, bike_numbers: Provided) -> ClimbResult:
     """The torque gain from the energy of a climb, which shares nothing with masses on a pedal;
     refused by name where the rides cannot tell."""
     calibrated_pct = body.calibrated_expanded_pct
@@ -108,11 +108,11 @@ def climb_inputs(body: ClimbRequest) -> ClimbInputs:
     return ClimbInputs(gravity_ms2=gravity_ms2, gravity_limit_ms2=gravity_limit_ms2, **values)
 
 
-def gravity_of(place: GravityAt | GravityGiven | None) -> tuple[float, float]:
+def gravity_of(place: GravityAt | GravityInput | None) -> tuple[float, float]:
     """What a kilogram weighs, and its half width."""
     if place is None:
         return ANYWHERE_MS2, ANYWHERE_LIMIT_MS2
-    if isinstance(place, GravityGiven):
+    if isinstance(place, GravityInput):
         return place.gravity_ms2, ROOT_3 * place.standard_ms2
     gravity = gravity_at(place.latitude_deg, place.height_m, place.height_standard_m)
     return gravity.gravity_ms2, ROOT_3 * gravity.standard_ms2

@@ -13,7 +13,7 @@ import numpy as np
 
 from backend.calibration.bike.balance import Climb, balance
 from backend.calibration.bike.coast_down import ClimbInputs, Run, resistance
-from backend.calibration.bike.types import CalibratedTorque, CertificateOfTorque, ClimbTold
+from backend.calibration.bike.types import CalibratedTorque, CertificateOfTorque, ClimbResult
 from backend.calibration.bike.wheel_measure import Rows, refusal, rows_of
 from backend.core.channels import Values
 from backend.core.energy import KMH_PER_MS, MOTOR_POWER, MOTOR_TORQUE, MOTOR_TORQUE_DEMANDED
@@ -63,7 +63,7 @@ class ClimbCheck:
         self._store = store
         self._certified_of = certified_of
 
-    def __call__(self, question: Question) -> ClimbTold:
+    def __call__(self, question: Question) -> ClimbResult:
         """Raises NotFound, ObjectDamaged, and InvalidRequest with every reason why these rides
         cannot tell."""
         runs = []
@@ -83,7 +83,7 @@ class ClimbCheck:
         calibrated = self._calibrated(question, rows)
         weighed = balance(climb, fitted, question.climb_inputs, calibrated.expanded_share)
         duration_s = float(rows.time_s[-1] - rows.time_s[0])
-        return ClimbTold(
+        return ClimbResult(
             rows.ride.context.unit_key, rise_m, duration_s, fitted, weighed, calibrated
         )
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from backend.calibration.bike.climb_check import CertifiedOf, ClimbCheck
-from backend.calibration.bike.types import Cadence, PulsesTold
+from backend.calibration.bike.types import Cadence, PulseComparison
 from backend.calibration.bike.wheel import cadence_error_rpm, pulses_per_turn, summed
 from backend.calibration.bike.wheel_measure import (
     CIRCUMFERENCE_PARAMETER,
@@ -66,7 +66,7 @@ class PulseCount:
         self._store = store
         self._config_of = config_of
 
-    def __call__(self, window: Window, turns: float) -> PulsesTold:
+    def __call__(self, window: Window, turns: float) -> PulseComparison:
         """turns: of the wheel by hand, counted. Raises NotFound, ObjectDamaged, and InvalidRequest
         where the ride cannot tell."""
         rows = rows_of(self._store, window, "ride_id", [SPEED])
@@ -81,7 +81,7 @@ class PulseCount:
         distance_m = float(summed(rows[SPEED] / KMH_PER_MS, rows.time_s)[-1])
         counted_turns = distance_m / float(circumference_m)
         pulses = pulses_per_turn(int(stored_pulses), counted_turns, turns)
-        return PulsesTold(rows.ride.context.unit_key, counted_turns, turns, pulses)
+        return PulseComparison(rows.ride.context.unit_key, counted_turns, turns, pulses)
 
 
 class BikeNumbers:

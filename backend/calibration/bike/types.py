@@ -10,12 +10,12 @@ from pydantic import Field
 from backend.calibration.bike.balance import Balance
 from backend.calibration.bike.coast_down import Resistance
 from backend.calibration.bike.wheel import Circumference, CutOff, Pulses
-from backend.calibration.types import GravityAt, GravityGiven
+from backend.calibration.types import GravityAt, GravityInput
 from backend.core.described import RequestBody, described
 
 RideNumber = Annotated[int, Field(ge=1, le=2**63 - 1)]
 Second = Annotated[float | None, Field(ge=0, le=1e7)]
-DEVICE = "A connected unit, to be told beside; null: none."
+DEVICE = "A connected unit to compare with; null: none."
 
 
 class RollOut(RequestBody):
@@ -38,19 +38,19 @@ class WheelByTrack(RequestBody):
         description="Another device's ride at the same time, which has the positions; the bike "
         "stands at both ends of the window then. Null: the ride itself has them.",
     )
-    told_circumference_m: float | None = Field(
+    device_circumference_m: float | None = Field(
         default=None,
         ge=0.5,
         le=3.0,
-        description="What the ride's device counts with; null: as its kept configuration says.",
+        description="What the ride's device counts with; null: as its stored configuration says.",
     )
     device_id: str | None = Field(default=None, max_length=400, description=DEVICE)
 
 
 @described
-class BesideUnit:
+class UnitComparison:
     device_id: str
-    kept_m: float
+    stored_m: float
     """What the unit counts with."""
     free_min_m: float | None
     """What may be set without the maker's token."""
@@ -58,7 +58,7 @@ class BesideUnit:
     in_band: bool | None
     """The measured value lies there; null: no band."""
     difference_pct: float
-    """Of the measured value from the kept one."""
+    """Of the measured value from the stored one."""
     agrees: bool
     """They differ by no more than the expanded uncertainty."""
     cut_off: CutOff | None
@@ -74,7 +74,7 @@ class Wheel:
     """Of the wheel, on that distance."""
     noise_m: float | None
     """Of a position, in each direction; null: rolled."""
-    beside: BesideUnit | None
+    unit_comparison: UnitComparison | None
 
 
 class PulsesRequest(RequestBody):
@@ -87,12 +87,12 @@ class PulsesRequest(RequestBody):
 
 
 @described
-class PulsesTold:
-    """The speed sensor's pulses in a turn of its wheel, beside those the unit counts with."""
+class PulseComparison:
+    """The speed sensor's pulses in a turn of its wheel, compared with the unit's setting."""
 
     unit_key: str | None
     """Whose they are."""
-    told_turns: float
+    reported_turns: float
     """Of the wheel, by the unit."""
     turns: float
     pulses: Pulses
@@ -108,13 +108,13 @@ class CadenceRequest(RequestBody):
 
 @described
 class Cadence:
-    """The mean cadence that the unit told, against the turns that its crank's angle made."""
+    """The mean cadence that the unit reported, against the turns of its crank's angle."""
 
-    told_rpm: float
+    reported_rpm: float
     turns: float
     duration_s: float
     error_rpm: float
-    """Told less counted."""
+    """Reported less counted."""
     expanded_rpm: float
     """Expanded uncertainty of the counting, k = 2."""
     agrees: bool
@@ -141,7 +141,7 @@ class ClimbRequest(RequestBody):
     )
     mass_kg: float = Field(ge=20, le=400, description="Bike, rider and all they carry.")
     mass_limit_kg: float = Field(gt=0, le=50)
-    gravity: GravityAt | GravityGiven | None = Field(
+    gravity: GravityAt | GravityInput | None = Field(
         default=None, description="Null: anything between the equator's and the poles'."
     )
     rise_limit_m: float = Field(gt=0, le=100)
@@ -191,7 +191,7 @@ class CalibratedTorque:
 
 
 @described
-class ClimbTold:
+class ClimbResult:
     """The torque gain by an energy balance, and whether it agrees with the calibration."""
 
     unit_key: str | None

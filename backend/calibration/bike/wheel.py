@@ -87,14 +87,14 @@ class Circumference(Plain):
 
 @dataclass(frozen=True, slots=True)
 class Pulses(Plain):
-    """A wheel's pulses in a turn. kept: what the unit counts with. counted, expanded: what its way
-    comes to, k = 2. whole: the number within that; None where there is none: the turns were
-    miscounted, or a magnet is missed. agrees: the kept one is within."""
+    """A wheel's pulses in a turn. stored: what the unit counts with. counted, expanded: what its
+    distance comes to, k = 2. nearest_integer: the number within that; None where there is none: the
+    turns were miscounted, or a magnet is missed. agrees: the stored one is within."""
 
-    kept: int
+    stored: int
     counted: float
     expanded: float
-    whole: int | None
+    nearest_integer: int | None
     agrees: bool
 
 
@@ -174,7 +174,7 @@ def cut_off(
 def pulses_per_turn(stored: int, counted_turns: float, turns: float) -> Pulses:
     """From turns of the wheel by hand, and what the unit made of them with `stored` pulses a turn.
 
-    The unit tells no pulses but the way they came to: told_turns are that way in turns. Raises
+    The unit reports no pulses but a distance: counted_turns is that distance in turns. Raises
     InvalidRequest for too few turns.
     """
     faults = []

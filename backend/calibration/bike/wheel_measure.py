@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from backend.calibration.bike.track import track_of
-from backend.calibration.bike.types import BesideUnit, Wheel
+from backend.calibration.bike.types import UnitComparison, Wheel
 from backend.calibration.bike.wheel import Circumference, cut_off, from_gps, roll_out, summed
 from backend.core._generated import MOVING_KMH
 from backend.core.channels import Values
@@ -158,10 +158,12 @@ class WheelMeasure:
         stored = config.get(CIRCUMFERENCE_PARAMETER)
         if source != "ride" or stored is None:
             message = "nobody knows what this ride's device counted with"
-            raise refusal("told_circumference_m", "missing", message)
+            raise refusal("device_circumference_m", "missing", message)
         return float(stored)
 
-    def _compared(self, device_id: str | None, circumference: Circumference) -> BesideUnit | None:
+    def _compared(
+        self, device_id: str | None, circumference: Circumference
+    ) -> UnitComparison | None:
         if device_id is None:
             return None
         by_name = {one.name: one for one in self._parameters_of(device_id)}
@@ -174,7 +176,7 @@ class WheelMeasure:
         )
         limit = by_name.get(CUTOFF_PARAMETER)
         measured_m = circumference.circumference_m
-        return BesideUnit(
+        return UnitComparison(
             device_id,
             stored_m,
             None if free is None else free.min,

@@ -9,7 +9,7 @@ from pydantic import Field
 from backend.core.described import Answer
 from backend.law.comparison import CellChange
 from backend.rides.comparison.figures import FigureValue
-from backend.rides.comparison.same_way import SameWay
+from backend.rides.comparison.route_overlap import RouteOverlap
 from backend.rides.insight.models import CrankTorque
 from backend.tuning.models.config import ParameterChange
 from backend.tuning.models.law import FuzzyTable
@@ -48,7 +48,7 @@ class ComparedChannel(Answer):
 
 
 class SideSettings(Answer):
-    known: bool
+    is_known: bool
     why: Literal["imported", "not_told", "not_kept"] | None = Field(
         description="Why the configuration is not known: a file brought the ride, its unit told "
         "none, or nobody kept what it told. Null where it is known."
@@ -60,20 +60,20 @@ class SideSettings(Answer):
     )
 
 
-class TablesApart(Answer):
+class TableDifference(Answer):
     which: Literal["first", "second"]
     left: FuzzyTable
     right: FuzzyTable
     cells: list[CellChange]
 
 
-class SettingsApart(Answer):
+class SettingsDifference(Answer):
     a: SideSettings
     b: SideSettings
     differences: list[ParameterChange] | None = Field(
         description="From A to B by parameter; null unless both are known."
     )
-    tables: list[TablesApart] = Field(description="Those of which anything differs.")
+    tables: list[TableDifference] = Field(description="Those of which anything differs.")
 
 
 class RideComparison(Answer):
@@ -84,11 +84,11 @@ class RideComparison(Answer):
         description="`apart`: one ride tells what the motor gave, the other what was asked of it."
     )
     channels: list[ComparedChannel]
-    same_way: SameWay | None
-    no_way: Literal["a", "b", "neither", "too_few"] | None = Field(
-        description="Who has no positions, or too few of them; null with `same_way`."
+    route_overlap: RouteOverlap | None
+    no_route: Literal["a", "b", "neither", "too_few"] | None = Field(
+        description="Who has no positions, or too few of them; null with `route_overlap`."
     )
-    settings: SettingsApart
+    settings: SettingsDifference
 
 
 class BinExtremes(Answer):
@@ -96,7 +96,7 @@ class BinExtremes(Answer):
     max: list[float | None]
 
 
-class SeriesBeside(Answer):
+class SeriesComparison(Answer):
     name: str
     unit: str
     a: BinExtremes | None = Field(description="Null where the ride has no such channel.")
@@ -121,12 +121,12 @@ class ComparedSeries(Answer):
     unit: Literal["s", "m"]
     end_x: float = Field(description="Of the axis: where the longer of both ends.")
     x: list[float] = Field(description="Edges of the bins, one more than there are bins.")
-    channels: list[SeriesBeside]
+    channels: list[SeriesComparison]
     a_gaps: list[AxisGap]
     b_gaps: list[AxisGap]
 
 
-class CrankApart(Answer):
+class CrankDifference(Answer):
     """B less A, bin by bin; null unless both are known."""
 
     rider_nm: list[float] | None
@@ -140,4 +140,4 @@ class ComparedCrank(Answer):
     b: CrankTorque | None
     a_refused: NoCrank | None
     b_refused: NoCrank | None
-    difference: CrankApart
+    difference: CrankDifference

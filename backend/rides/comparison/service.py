@@ -26,7 +26,7 @@ from backend.core.ride import Ride
 from backend.errors import FieldError, InvalidRequest
 from backend.rides.comparison.figures import Stretch, compared
 from backend.rides.comparison.grid import Bins, Laid, binned
-from backend.rides.comparison.same_way import Positions, same_way
+from backend.rides.comparison.route_overlap import Positions, route_overlap
 from backend.rides.comparison.settings_difference import Part, settings_difference
 from backend.rides.insight.crank import CrankTorque
 from backend.rides.insight.service import ALTITUDE, ANGLE, CADENCE, POWERS, TORQUE, crank_of_ride
@@ -225,11 +225,14 @@ def ways(a: RideColumns, b: RideColumns) -> dict[str, Any]:
     """Whether both took the same route, or why that is unknown: which has no positions."""
     placed = [all(rows[name] is not None for name in PLACES) for rows in (a, b)]
     if not all(placed):
-        return {"same_way": None, "no_way": "neither" if not any(placed) else "ab"[placed[0]]}
-    comparison = same_way(*(positions(rows) for rows in (a, b)))
+        return {
+            "route_overlap": None,
+            "no_route": "neither" if not any(placed) else "ab"[placed[0]],
+        }
+    comparison = route_overlap(*(positions(rows) for rows in (a, b)))
     return {
-        "same_way": asdict(comparison) if comparison else None,
-        "no_way": None if comparison else "too_few",
+        "route_overlap": asdict(comparison) if comparison else None,
+        "no_route": None if comparison else "too_few",
     }
 
 

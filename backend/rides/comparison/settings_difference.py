@@ -38,17 +38,17 @@ def settings_difference(config_of: ConfigOf, a: Part, b: Part) -> dict[str, Any]
     return answer
 
 
-def side_of(part: Part, known: bool) -> dict[str, Any]:
+def side_of(part: Part, is_known: bool) -> dict[str, Any]:
     """Whose configuration it is, or why it is unknown."""
     ride, from_s, to_s = part
     spans, why = ride.settings_spans(), None
     in_force = [crc32 for since_s, crc32 in spans if since_s <= from_s]
-    if not known:
+    if not is_known:
         why = "not_told" if in_force[-1] is None else "not_kept"
         if why == "not_told" and ride.origin == "imported":
             why = "imported"
     return {
-        "known": known,
+        "is_known": is_known,
         "why": why,
         "unit_key": ride.context.unit_key,
         "generation": ride.context.config_generation if len(in_force) == 1 else None,

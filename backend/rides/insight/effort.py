@@ -50,7 +50,7 @@ class Distribution:
     """Of what is counted."""
     most: float
     """The greatest mean of a second."""
-    known_s: float
+    valid_s: float
     unknown_s: float
     """Time without the quantity."""
 
@@ -60,7 +60,7 @@ class Seconds:
     """A ride by seconds, or by rows that last longer: values by channel and their time (m,)."""
 
     values: Mapping[str, Values]
-    held_s: Values
+    row_s: Values
 
     def __getitem__(self, name: str) -> Values | None:
         return self.values.get(name)
@@ -93,7 +93,7 @@ def power_time(ride: Seconds, threshold_w: float | None) -> Distribution | None:
         return None
     pedalling = turning(ride) & ~(power <= 0.0)
     edges = zone_edges(POWER_ZONE_SHARES, threshold_w) or steps(power[pedalling], POWER_STEP_W)
-    return distribution(POWER, power, ride.held_s, pedalling, edges, threshold_w)
+    return distribution(POWER, power, ride.row_s, pedalling, edges, threshold_w)
 
 
 def heart_time(ride: Seconds, bpm_max: float | None) -> Distribution | None:
@@ -103,7 +103,7 @@ def heart_time(ride: Seconds, bpm_max: float | None) -> Distribution | None:
         return None
     always = np.ones(len(rate), np.bool_)
     edges = zone_edges(HEART_ZONE_SHARES, bpm_max) or steps(rate, HEART_STEP_BPM)
-    return distribution(HEART, rate, ride.held_s, always, edges, bpm_max)
+    return distribution(HEART, rate, ride.row_s, always, edges, bpm_max)
 
 
 def torque_time(ride: Seconds) -> Distribution | None:
@@ -117,7 +117,7 @@ def torque_time(ride: Seconds) -> Distribution | None:
         return None
     pushing = turning(ride)
     edges = steps(torque[pushing], TORQUE_STEP_NM)
-    return distribution(TORQUE, torque, ride.held_s, pushing, edges, None)
+    return distribution(TORQUE, torque, ride.row_s, pushing, edges, None)
 
 
 def cadence_time(ride: Seconds) -> Distribution | None:
@@ -127,14 +127,14 @@ def cadence_time(ride: Seconds) -> Distribution | None:
         return None
     pushing = turning(ride)
     edges = steps(cadence[pushing], CADENCE_STEP_RPM)
-    return distribution(CADENCE, cadence, ride.held_s, pushing, edges, None)
+    return distribution(CADENCE, cadence, ride.row_s, pushing, edges, None)
 
 
 def turning(ride: Seconds) -> npt.NDArray[np.bool_]:
     """Seconds in which the cranks turn, or may: where nobody measured it."""
     cadence = ride[CADENCE]
     if cadence is None:
-        return np.ones(len(ride.held_s), np.bool_)
+        return np.ones(len(ride.row_s), np.bool_)
     return ~(cadence <= 0.0)
 
 
@@ -176,7 +176,7 @@ def distribution(
         ),
         mean=float(np.average(values[valid], weights=seconds[valid])),
         most=float(values[valid].max()),
-        known_s=float(seconds[valid].sum()),
+        valid_s=float(seconds[valid].sum()),
         unknown_s=float(seconds[~np.isfinite(values)].sum()),
     )
 

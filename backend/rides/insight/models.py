@@ -57,7 +57,7 @@ class Charge(Answer):
 
 class RideEnergy(Answer):
     ride_id: int
-    whole: EnergyShare
+    total: EnergyShare
     lost_km: float | None = Field(description="Way in gaps, that is in no row.")
     battery_wh_per_km: float | None
     modes: list[ModeEnergy]

@@ -59,7 +59,7 @@ class RideEnergy:
             charge = charge_of(soc, ride[BATTERY_POWER.name], ride.seconds, step_m)
         return {
             "ride_id": ride_id,
-            "whole": asdict(total),
+            "total": asdict(total),
             "lost_km": ride.distances.lost_m / 1000.0 if ride.distances else None,
             "battery_wh_per_km": total.battery_wh / km if total.battery_wh and km else None,
             "modes": mode_shares(ride, stretches(self._config_of, ride.ride)),

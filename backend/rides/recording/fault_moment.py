@@ -51,7 +51,7 @@ class FaultMoment:
     fault: str
     unit_t_us: int | None = None
     """When it came last, on the unit's clock."""
-    came_at: datetime | None = None
+    occurred_at: datetime | None = None
     """The same as wall time, where samples tell it."""
     source: Literal["ride", "stream"] | None = None
     """What had the samples."""
@@ -62,7 +62,7 @@ class FaultMoment:
     ride_t_s: float | None = None
     """The fault's place in the ride."""
     motor_torque_meaning: MotorTorqueMeaning | None = None
-    whole: bool = True
+    complete: bool = True
     """False while samples after the fault are still to come."""
     at_s: Sequence[float] = ()
     """Of each sample; the fault came at 0."""
@@ -208,9 +208,9 @@ def moment(fault: str, t_us: int, cut: Cut, gear_ratio: float | None, goes_on: b
     return FaultMoment(
         fault,
         unit_t_us=t_us,
-        came_at=utc(t_us + cut.wall_us),
+        occurred_at=utc(t_us + cut.wall_us),
         motor_torque_meaning=None if at_crank is None else motor_torque_meaning(cut.channels),
-        whole=not goes_on or last_us >= t_us + AFTER_US - ROW_US_MAX,
+        complete=not goes_on or last_us >= t_us + AFTER_US - ROW_US_MAX,
         at_s=((cut.t_us - t_us) / 1e6).tolist(),
         rider_torque_nm=numbers_or_none(rider, len(cut.t_us)),
         motor_torque_nm=numbers_or_none(at_crank, len(cut.t_us)),

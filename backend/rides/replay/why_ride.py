@@ -76,7 +76,7 @@ class WhyRide:
         readings = law_inputs(columns)
         delivered = self._delivered_nm(reader.ride, columns)
         why = law.why(config, readings, step_s=step_s, delivered_nm=delivered)
-        moment = {"kind": "ride", "ride_id": ride_id, "t_s": row * step_s, "held_s": None}
+        moment = {"kind": "ride", "ride_id": ride_id, "t_s": row * step_s, "hold_s": None}
         recorded = {
             name: number(columns[name][-1]) if name in columns else None for name in RECORDED
         }

@@ -47,7 +47,7 @@ class Damage:
 class StoreCheck:
     """What `check_store` found.
 
-    reason: why database and folder are not one store, None when they are. whole: objects that are
+    reason: why database and folder are not one store, None when they are. sound: objects that are
     what their name says, known or not. rides_damaged: rides whose rows in the database cannot be
     read. missing: the database names them and they are not there.
     """
@@ -57,7 +57,7 @@ class StoreCheck:
     folder: str
     folder_id: str | None
     reason: str | None
-    whole: int
+    sound: int
     bytes: int
     missing: tuple[str, ...]
     damaged: tuple[Damage, ...]
@@ -90,7 +90,7 @@ class StoreCheck:
             },
             "folder": {"path": self.folder, "identity": self.folder_id},
             "objects": {
-                "whole": self.whole,
+                "sound": self.sound,
                 "bytes": self.bytes,
                 "missing": list(self.missing),
                 "damaged": [asdict(damage) for damage in self.damaged],
@@ -133,7 +133,7 @@ def checked(db_url: str, objects: FileObjects) -> StoreCheck:
         folder=str(objects.root),
         folder_id=folder_id,
         reason=belonging(view, objects).reason,
-        whole=sound,
+        sound=sound,
         bytes=size,
         missing=tuple(sorted(view.object_keys - keys)),
         damaged=tuple(damaged),

@@ -38,17 +38,17 @@ class Side:
 
 
 @dataclass(frozen=True)
-class Looked:
-    """A side as it was found. values: parameters by registry name. table: None where a partial
+class TableReview:
+    """A side of the comparison. values: parameters by registry name. table: None where a partial
     configuration has none. feel: None where it was not asked for or cannot be measured, with the
-    reason in `not_felt`."""
+    reason in `no_feel_reason`."""
 
     name: str
     kind: str
     values: dict[str, Any]
     table: FuzzyTable | None
     feel: Feel | None
-    not_felt: str | None
+    no_feel_reason: str | None
 
     @property
     def fuzzy_table(self) -> dict[str, Any] | None:
@@ -70,8 +70,8 @@ class Comparison:
     """parameters: what differs, right against left; of a table beside a configuration only what the
     table has. tables: None where a side has none."""
 
-    left: Looked
-    right: Looked
+    left: TableReview
+    right: TableReview
     parameters: tuple[Difference, ...]
     tables: TableComparison | None
 
@@ -89,7 +89,7 @@ class Compare:
 
         Raises NotFound, InvalidRequest, and what reading a unit raises.
         """
-        one, other = self._looked(left, "left", feel), self._looked(right, "right", feel)
+        one, other = self._review(left, "left", feel), self._review(right, "right", feel)
         old, new = one.values, other.values
         if "table" in (one.kind, other.kind):
             old, new = own_names(one, left), own_names(other, right)
@@ -119,13 +119,13 @@ class Compare:
             self._measured[key] = feel
         return feel
 
-    def _looked(self, side: Side, where: str, feel: bool) -> Looked:
+    def _review(self, side: Side, where: str, feel: bool) -> TableReview:
         name, kind, values = self._values(side, where)
         which = "first" if kind == "table" else side.table
         names = PARAMETERS_OF[which].values()
         has_table = all(parameter in values for parameter in names)
         table = FuzzyTable.from_parameters(values, which) if has_table else None
-        measured, not_felt = None, None
+        measured, no_feel_reason = None, None
         if feel:
             # A table is ridden as the first one, whichever of a configuration's it is.
             is_first = kind == "configuration" and which == "first"
@@ -133,8 +133,8 @@ class Compare:
             try:
                 measured = self._feel_of(ridden)
             except Conflict as error:
-                not_felt = error.message
-        return Looked(name, kind, values, table, measured, not_felt)
+                no_feel_reason = error.message
+        return TableReview(name, kind, values, table, measured, no_feel_reason)
 
     def _values(self, side: Side, where: str) -> tuple[str, str, dict[str, Any]]:
         """Name, kind and values of a side. Raises InvalidRequest unless it says just one thing."""
@@ -171,8 +171,8 @@ def differences(old: Mapping[str, Any], new: Mapping[str, Any]) -> tuple[Differe
     )
 
 
-def own_names(looked: Looked, side: Side) -> dict[str, Any]:
+def own_names(review: TableReview, side: Side) -> dict[str, Any]:
     """The table of a side under the names of a first one, so that two can be compared."""
-    if looked.table is None:
-        return {name: looked.values.get(name) for name in PARAMETERS_OF[side.table].values()}
-    return looked.table.to_parameters()
+    if review.table is None:
+        return {name: review.values.get(name) for name in PARAMETERS_OF[side.table].values()}
+    return review.table.to_parameters()

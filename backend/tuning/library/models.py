@@ -93,19 +93,19 @@ class CompareRequest(RequestBody):
     )
 
 
-class LookedAt(Answer):
+class TableReview(Answer):
     name: str
     kind: Literal["table", "configuration"]
     fuzzy_table: FuzzyTable | None = Field(
         description="Null for a partial configuration that has none."
     )
     feel: Feel | None
-    not_felt: str | None = Field(description="Why nothing could be measured.")
+    no_feel_reason: str | None = Field(description="Why nothing could be measured.")
 
 
 class Comparison(Answer):
-    left: LookedAt
-    right: LookedAt
+    left: TableReview
+    right: TableReview
     parameters: list[ParameterChange] = Field(
         description="What differs; of a table beside a configuration what the table has. Null "
         "where a side says nothing of it."

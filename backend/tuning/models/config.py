@@ -61,7 +61,7 @@ class LastKnown(Answer):
 
     unit_key: str
     seen_at: datetime | None = Field(description="When the unit was last there.")
-    noted_at: datetime = Field(description="When this configuration was read from it.")
+    recorded_at: datetime = Field(description="When this configuration was read from it.")
     generation: int | None
     crc32: int | None
     parameters: list[Parameter]

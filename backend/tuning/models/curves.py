@@ -58,8 +58,8 @@ class TorqueSurface(Answer):
 
     speeds_kmh: list[float]
     torque_rates: list[float]
-    asked_nm: list[list[float]] = Field(description="By the mode's law.")
-    given_nm: list[list[float]] = Field(description="What is left of it after every limit.")
+    demanded_nm: list[list[float]] = Field(description="By the mode's law.")
+    delivered_nm: list[list[float]] = Field(description="What is left of it after every limit.")
     limit_flags: list[list[int]] = Field(description="Bits of the registry: what held it back.")
     cadence_rpm: float
     crank_rad_per_s: float = Field(description="Torque times this is the power.")

@@ -38,7 +38,7 @@ class WhyRequest(RequestBody):
     controller_temperature_degc: float | None = Field(default=None, ge=-60.0, le=300.0)
     brake: bool = False
     walk_button: bool = False
-    held_s: float = Field(
+    hold_s: float = Field(
         default=10.0, ge=0.1, le=600.0, description="For how long, from rest, at 100 steps a second"
     )
     fuzzy_table: FuzzyTable | None = None
@@ -57,12 +57,12 @@ class WhyRequest(RequestBody):
 
 
 class WhyMoment(Answer):
-    """`steady`: held for `held_s`, nobody rode it. `ride`: `t_s` after its start."""
+    """`steady`: held for `hold_s`, nobody rode it. `ride`: `t_s` after its start."""
 
     kind: Literal["steady", "ride"]
     ride_id: int | None
     t_s: float | None
-    held_s: float | None
+    hold_s: float | None
 
 
 class WhySettings(Answer):

@@ -9,7 +9,7 @@ export class BuildWatch {
   is_old = $state(false)
   /** A part of this page could not be fetched, whatever the reason. */
   lacks_part = $state(false)
-  private readonly polling = new PollWhileVisible(() => this.look(), PERIOD_MS)
+  private readonly polling = new PollWhileVisible(() => this.check(), PERIOD_MS)
 
   /** entry: the file that these pages began with, whose name carries a hash of all of them. */
   constructor(
@@ -24,11 +24,12 @@ export class BuildWatch {
 
   lacked(): void {
     this.lacks_part = true
-    void this.look()
+    void this.check()
   }
 
-  /** Asks which pages the server has. An answer that is not ours, a proxy's say, tells nothing. */
-  async look(): Promise<void> {
+  /** Checks which pages the server has. An answer that is not ours, such as a proxy's, is ignored.
+      */
+  async check(): Promise<void> {
     if (this.is_old) return
     try {
       const answer = await fetch(this.first_page, {

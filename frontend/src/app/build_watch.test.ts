@@ -1,5 +1,4 @@
-/* Goal: an open page knows that the server was given other pages, and takes nobody else's word for
-   it. */
+/* Goal: an open page notices that the server has other pages, and ignores answers of a proxy. */
 import { afterEach, describe, expect, it, vi } from 'vitest'
 import { BuildWatch } from './build_watch.svelte'
 
@@ -8,20 +7,20 @@ const page = (entry: string) =>
 
 afterEach(() => vi.unstubAllGlobals())
 
-async function told(answer: () => Promise<Response>): Promise<boolean> {
+async function isReplaced(answer: () => Promise<Response>): Promise<boolean> {
   vi.stubGlobal('fetch', answer)
   const watch = new BuildWatch('index-Aa11.js', '/')
-  await watch.look()
+  await watch.check()
   return watch.is_old
 }
 
 describe('a page that stays open', () => {
   it('is of the same build while the server has its entry', async () => {
-    expect(await told(async () => new Response(page('index-Aa11.js')))).toBe(false)
+    expect(await isReplaced(async () => new Response(page('index-Aa11.js')))).toBe(false)
   })
 
   it('is old once the server has another', async () => {
-    expect(await told(async () => new Response(page('index-Bb22.js')))).toBe(true)
+    expect(await isReplaced(async () => new Response(page('index-Bb22.js')))).toBe(true)
   })
 
   it.each([
@@ -29,6 +28,6 @@ describe('a page that stays open', () => {
     ['an error', async () => new Response(page('index-Bb22.js'), { status: 502 })],
     ['nobody', () => Promise.reject(new TypeError('Failed to fetch'))],
   ])('takes no word from %s', async (_, answer) => {
-    expect(await told(answer)).toBe(false)
+    expect(await isReplaced(answer)).toBe(false)
   })
 })

@@ -1,5 +1,5 @@
 // @vitest-environment happy-dom
-/* Goal: g and a letter goes to a page, soon after each other and not while somebody types. */
+/* Goal: g and a letter goes to a page, soon after each other and not while typing. */
 import { expect, it } from 'vitest'
 import { GoKeys } from './go_keys'
 

@@ -51,7 +51,7 @@ const context: AppContext = {
   first_steps: new FirstSteps(chosen.first_steps),
   go: router.go,
 }
-// A page of its own: who is not signed in may ask for nothing that the others show.
+// A page of its own: without a sign-in no request of the other pages is allowed.
 const alone = here() === SIGN_IN
 const target = document.getElementById('app')
 target?.replaceChildren() // what it says while nothing was loaded

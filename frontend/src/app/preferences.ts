@@ -1,4 +1,4 @@
-// What the reader chose, kept in this browser. Anything unreadable counts as not chosen.
+// What the reader chose, stored in this browser. Anything unreadable counts as not chosen.
 import type { Language } from '$shared/i18n/locale.svelte'
 import type { ThemeChoice } from '$shared/ui/theme.svelte'
 import type { System } from '$shared/units/units.svelte'
@@ -21,21 +21,21 @@ const themes: readonly ThemeChoice[] = ['system', 'light', 'dark']
 const systems: readonly System[] = ['metric', 'imperial']
 
 export function readPreferences(): Preferences {
-  const kept = parse(localStorage.getItem(KEY))
+  const stored = parse(localStorage.getItem(KEY))
   const browser: Language = navigator.language.toLowerCase().startsWith('zh') ? 'zh' : 'en'
   return {
-    language: oneOf(languages, kept.language) ?? browser,
-    theme: oneOf(themes, kept.theme) ?? 'system',
-    units: oneOf(systems, kept.units) ?? 'metric',
-    device_id: typeof kept.device_id === 'string' ? kept.device_id : null,
-    author: typeof kept.author === 'string' ? kept.author : '',
-    threshold_power_w: positive(kept.threshold_power_w),
-    heart_rate_bpm_max: positive(kept.heart_rate_bpm_max),
-    first_steps: kept.first_steps,
+    language: oneOf(languages, stored.language) ?? browser,
+    theme: oneOf(themes, stored.theme) ?? 'system',
+    units: oneOf(systems, stored.units) ?? 'metric',
+    device_id: typeof stored.device_id === 'string' ? stored.device_id : null,
+    author: typeof stored.author === 'string' ? stored.author : '',
+    threshold_power_w: positive(stored.threshold_power_w),
+    heart_rate_bpm_max: positive(stored.heart_rate_bpm_max),
+    first_steps: stored.first_steps,
   }
 }
 
-export function keepPreferences(preferences: Preferences): void {
+export function storePreferences(preferences: Preferences): void {
   localStorage.setItem(KEY, JSON.stringify(preferences))
 }
 

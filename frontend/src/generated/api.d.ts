@@ -2336,6 +2336,27 @@ export interface components {
             deviations: number | null;
         };
         /**
+         * AnsweredTable
+         * @description A kind of table that was answered for.
+         */
+        AnsweredTable: {
+            /** Header Sha256 */
+            header_sha256: string;
+            /** Kind */
+            kind: string;
+            /**
+             * Columns
+             * @description Their names.
+             */
+            columns: string[];
+            answer: components["schemas"]["TableAnswer"];
+        };
+        /** AnsweredTables */
+        AnsweredTables: {
+            /** Items */
+            items: components["schemas"]["AnsweredTable"][];
+        };
+        /**
          * ApiKey
          * @description A key, without its secret.
          */
@@ -2526,40 +2547,6 @@ export interface components {
             /** High Nm */
             high_nm: number;
         };
-        /** BesideUnit */
-        BesideUnit: {
-            /** Device Id */
-            device_id: string;
-            /**
-             * Kept M
-             * @description What the unit counts with.
-             */
-            kept_m: number;
-            /**
-             * Free Min M
-             * @description What may be set without the maker's token.
-             */
-            free_min_m: number | null;
-            /** Free Max M */
-            free_max_m: number | null;
-            /**
-             * In Band
-             * @description The measured value lies there; null: no band.
-             */
-            in_band: boolean | null;
-            /**
-             * Difference Pct
-             * @description Of the measured value from the kept one.
-             */
-            difference_pct: number;
-            /**
-             * Agrees
-             * @description They differ by no more than the expanded uncertainty.
-             */
-            agrees: boolean;
-            /** @description At what true speed the unit's assist cut-off lies; null: it has none. */
-            cut_off: components["schemas"]["CutOff"] | null;
-        };
         /**
          * BestMean
          * @description The greatest mean over this long, in the stretch that begins at `from_s`.
@@ -2619,18 +2606,18 @@ export interface components {
         };
         /**
          * Cadence
-         * @description The mean cadence that the unit told, against the turns that its crank's angle made.
+         * @description The mean cadence that the unit reported, against the turns of its crank's angle.
          */
         Cadence: {
-            /** Told Rpm */
-            told_rpm: number;
+            /** Reported Rpm */
+            reported_rpm: number;
             /** Turns */
             turns: number;
             /** Duration S */
             duration_s: number;
             /**
              * Error Rpm
-             * @description Told less counted.
+             * @description Reported less counted.
              */
             error_rpm: number;
             /**
@@ -2805,10 +2792,10 @@ export interface components {
             pedals_free: boolean;
         };
         /**
-         * CaptureTold
+         * CaptureSummary
          * @description One capture, without its raw counts, which the certificate has.
          */
-        CaptureTold: {
+        CaptureSummary: {
             /** Number */
             number: number;
             state: components["schemas"]["State"];
@@ -3139,7 +3126,7 @@ export interface components {
              * Gravity
              * @description Null: anything between the equator's and the poles'.
              */
-            gravity?: components["schemas"]["GravityAt"] | components["schemas"]["GravityGiven"] | null;
+            gravity?: components["schemas"]["GravityAt"] | components["schemas"]["GravityInput"] | null;
             /** Rise Limit M */
             rise_limit_m: number;
             /**
@@ -3187,10 +3174,10 @@ export interface components {
             motor_off: boolean;
         };
         /**
-         * ClimbTold
+         * ClimbResult
          * @description The torque gain by an energy balance, and whether it agrees with the calibration.
          */
-        ClimbTold: {
+        ClimbResult: {
             /** Unit Key */
             unit_key: string | null;
             /**
@@ -3334,7 +3321,7 @@ export interface components {
             a_refused: ("no_angle" | "no_torque" | "slow_rows" | "few_turns") | null;
             /** B Refused */
             b_refused: ("no_angle" | "no_torque" | "slow_rows" | "few_turns") | null;
-            difference: components["schemas"]["CrankApart"];
+            difference: components["schemas"]["CrankDifference"];
         };
         /** ComparedFigure */
         ComparedFigure: {
@@ -3377,7 +3364,7 @@ export interface components {
              */
             x: number[];
             /** Channels */
-            channels: components["schemas"]["SeriesBeside"][];
+            channels: components["schemas"]["SeriesComparison"][];
             /** A Gaps */
             a_gaps: components["schemas"]["AxisGap"][];
             /** B Gaps */
@@ -3408,8 +3395,8 @@ export interface components {
         };
         /** Comparison */
         Comparison: {
-            left: components["schemas"]["LookedAt"];
-            right: components["schemas"]["LookedAt"];
+            left: components["schemas"]["TableReview"];
+            right: components["schemas"]["TableReview"];
             /**
              * Parameters
              * @description What differs; of a table beside a configuration what the table has. Null where a side says nothing of it.
@@ -3564,10 +3551,10 @@ export interface components {
             degrees_of_freedom: number | null;
         };
         /**
-         * CrankApart
+         * CrankDifference
          * @description B less A, bin by bin; null unless both are known.
          */
-        CrankApart: {
+        CrankDifference: {
             /** Rider Nm */
             rider_nm: number[] | null;
             /** Motor Nm */
@@ -3998,8 +3985,8 @@ export interface components {
              * @description The greatest mean of a second.
              */
             most: number;
-            /** Known S */
-            known_s: number;
+            /** Valid S */
+            valid_s: number;
             /**
              * Unknown S
              * @description Time without the quantity.
@@ -4203,10 +4190,10 @@ export interface components {
              */
             unit_t_us: number | null;
             /**
-             * Came At
+             * Occurred At
              * @description The same as wall time, where samples tell it.
              */
-            came_at: string | null;
+            occurred_at: string | null;
             /**
              * Source
              * @description What had the samples.
@@ -4228,11 +4215,11 @@ export interface components {
             /** Motor Torque Meaning */
             motor_torque_meaning: ("demanded" | "delivered") | null;
             /**
-             * Whole
+             * Complete
              * @description False while samples after the fault are still to come.
              * @default true
              */
-            whole: boolean;
+            complete: boolean;
             /**
              * At S
              * @description Of each sample; the fault came at 0.
@@ -4590,8 +4577,8 @@ export interface components {
              */
             height_standard_m: number;
         };
-        /** GravityGiven */
-        GravityGiven: {
+        /** GravityInput */
+        GravityInput: {
             /** Gravity Ms2 */
             gravity_ms2: number;
             /**
@@ -4841,7 +4828,7 @@ export interface components {
              */
             checks: components["schemas"]["Check"][];
             /** Captures */
-            captures: components["schemas"]["CaptureTold"][];
+            captures: components["schemas"]["CaptureSummary"][];
             /** @description All that follows from setup and captures. */
             worked: components["schemas"]["Worked"] | null;
             /**
@@ -4942,27 +4929,6 @@ export interface components {
             limits: components["schemas"]["Limits"];
         };
         /**
-         * KnownTable
-         * @description A kind of table that was answered for.
-         */
-        KnownTable: {
-            /** Header Sha256 */
-            header_sha256: string;
-            /** Kind */
-            kind: string;
-            /**
-             * Columns
-             * @description Their names.
-             */
-            columns: string[];
-            answer: components["schemas"]["TableAnswer"];
-        };
-        /** KnownTables */
-        KnownTables: {
-            /** Items */
-            items: components["schemas"]["KnownTable"][];
-        };
-        /**
          * Lap
          * @description A part of the ride that was marked off, in seconds after its start; null for untold.
          */
@@ -5047,11 +5013,11 @@ export interface components {
              */
             seen_at: string | null;
             /**
-             * Noted At
+             * Recorded At
              * Format: date-time
              * @description When this configuration was read from it.
              */
-            noted_at: string;
+            recorded_at: string;
             /** Generation */
             generation: number | null;
             /** Crc32 */
@@ -5538,24 +5504,6 @@ export interface components {
              * @description Whether the unit knows that the log is safe.
              */
             confirmed: boolean;
-        };
-        /** LookedAt */
-        LookedAt: {
-            /** Name */
-            name: string;
-            /**
-             * Kind
-             * @enum {string}
-             */
-            kind: "table" | "configuration";
-            /** @description Null for a partial configuration that has none. */
-            fuzzy_table: components["schemas"]["FuzzyTable"] | null;
-            feel: components["schemas"]["Feel"] | null;
-            /**
-             * Not Felt
-             * @description Why nothing could be measured.
-             */
-            not_felt: string | null;
         };
         /**
          * Mass
@@ -6146,20 +6094,39 @@ export interface components {
             drag_area_m2?: number | null;
         };
         /**
+         * PulseComparison
+         * @description The speed sensor's pulses in a turn of its wheel, compared with the unit's setting.
+         */
+        PulseComparison: {
+            /**
+             * Unit Key
+             * @description Whose they are.
+             */
+            unit_key: string | null;
+            /**
+             * Reported Turns
+             * @description Of the wheel, by the unit.
+             */
+            reported_turns: number;
+            /** Turns */
+            turns: number;
+            pulses: components["schemas"]["Pulses"];
+        };
+        /**
          * Pulses
-         * @description A wheel's pulses in a turn. kept: what the unit counts with. counted, expanded: what its way
-         *     comes to, k = 2. whole: the number within that; None where there is none: the turns were
-         *     miscounted, or a magnet is missed. agrees: the kept one is within.
+         * @description A wheel's pulses in a turn. stored: what the unit counts with. counted, expanded: what its
+         *     distance comes to, k = 2. nearest_integer: the number within that; None where there is none: the
+         *     turns were miscounted, or a magnet is missed. agrees: the stored one is within.
          */
         Pulses: {
-            /** Kept */
-            kept: number;
+            /** Stored */
+            stored: number;
             /** Counted */
             counted: number;
             /** Expanded */
             expanded: number;
-            /** Whole */
-            whole: number | null;
+            /** Nearest Integer */
+            nearest_integer: number | null;
             /** Agrees */
             agrees: boolean;
         };
@@ -6179,25 +6146,6 @@ export interface components {
              * @description Of the wheel, counted by whoever turned it.
              */
             turns: number;
-        };
-        /**
-         * PulsesTold
-         * @description The speed sensor's pulses in a turn of its wheel, beside those the unit counts with.
-         */
-        PulsesTold: {
-            /**
-             * Unit Key
-             * @description Whose they are.
-             */
-            unit_key: string | null;
-            /**
-             * Told Turns
-             * @description Of the wheel, by the unit.
-             */
-            told_turns: number;
-            /** Turns */
-            turns: number;
-            pulses: components["schemas"]["Pulses"];
         };
         /**
          * ReadFis
@@ -6745,13 +6693,13 @@ export interface components {
             motor_torque: "alike" | "apart";
             /** Channels */
             channels: components["schemas"]["ComparedChannel"][];
-            same_way: components["schemas"]["SameWay"] | null;
+            route_overlap: components["schemas"]["RouteOverlap"] | null;
             /**
-             * No Way
-             * @description Who has no positions, or too few of them; null with `same_way`.
+             * No Route
+             * @description Who has no positions, or too few of them; null with `route_overlap`.
              */
-            no_way: ("a" | "b" | "neither" | "too_few") | null;
-            settings: components["schemas"]["SettingsApart"];
+            no_route: ("a" | "b" | "neither" | "too_few") | null;
+            settings: components["schemas"]["SettingsDifference"];
         };
         /**
          * RideCurve
@@ -6852,7 +6800,7 @@ export interface components {
         RideEnergy: {
             /** Ride Id */
             ride_id: number;
-            whole: components["schemas"]["EnergyShare"];
+            total: components["schemas"]["EnergyShare"];
             /**
              * Lost Km
              * @description Way in gaps, that is in no row.
@@ -7235,9 +7183,33 @@ export interface components {
             tape_limit_m: number;
             /**
              * Device Id
-             * @description A connected unit, to be told beside; null: none.
+             * @description A connected unit to compare with; null: none.
              */
             device_id?: string | null;
+        };
+        /**
+         * RouteOverlap
+         * @description Shares, 0 to 1, of tracks walked in steps of 10 m.
+         */
+        RouteOverlap: {
+            /** Near M */
+            near_m: number;
+            /**
+             * A Near B
+             * @description Of A's track, so near to B's, whenever B was there.
+             */
+            a_near_b: number;
+            /**
+             * B Near A
+             * @description As `a_near_b`.
+             */
+            b_near_a: number;
+            /**
+             * In Step
+             * @description Of the way that both have, where they are so near at the same distance from their starts: how
+             *     well they line up by distance. Null without a way.
+             */
+            in_step: number | null;
         };
         /**
          * RuleShare
@@ -7271,50 +7243,6 @@ export interface components {
              * @description Of the ride's motor energy, 0 to 1.
              */
             share: number | null;
-        };
-        /**
-         * SaidOfTable
-         * @description What an owner says of a table. It is kept for every file with the same header.
-         */
-        SaidOfTable: {
-            /**
-             * Time Zone
-             * @description An IANA name: `Europe/Dublin`, `UTC`.
-             */
-            time_zone?: string | null;
-            /**
-             * Units
-             * @description By the column's name.
-             */
-            units?: {
-                [key: string]: string;
-            };
-            /** Rows Per Second */
-            rows_per_second?: number | null;
-        };
-        /**
-         * SameWay
-         * @description Shares, 0 to 1, of tracks walked in steps of 10 m.
-         */
-        SameWay: {
-            /** Near M */
-            near_m: number;
-            /**
-             * A Near B
-             * @description Of A's track, so near to B's, whenever B was there.
-             */
-            a_near_b: number;
-            /**
-             * B Near A
-             * @description As `a_near_b`.
-             */
-            b_near_a: number;
-            /**
-             * In Step
-             * @description Of the way that both have, where they are so near at the same distance from their starts: how
-             *     well they line up by distance. Null without a way.
-             */
-            in_step: number | null;
         };
         /** ScaleChange */
         ScaleChange: {
@@ -7424,21 +7352,6 @@ export interface components {
             /** Channels */
             channels: components["schemas"]["SeriesChannel"][];
         };
-        /** SeriesBeside */
-        SeriesBeside: {
-            /** Name */
-            name: string;
-            /** Unit */
-            unit: string;
-            /** @description Null where the ride has no such channel. */
-            a: components["schemas"]["BinExtremes"] | null;
-            b: components["schemas"]["BinExtremes"] | null;
-            /**
-             * Difference
-             * @description Of the means over time of each bin, B less A, where both have one.
-             */
-            difference: (number | null)[] | null;
-        };
         /**
          * SeriesChannel
          * @description Least and greatest value of each bin; a bin without a sample is null.
@@ -7452,6 +7365,21 @@ export interface components {
             min: (number | null)[];
             /** Max */
             max: (number | null)[];
+        };
+        /** SeriesComparison */
+        SeriesComparison: {
+            /** Name */
+            name: string;
+            /** Unit */
+            unit: string;
+            /** @description Null where the ride has no such channel. */
+            a: components["schemas"]["BinExtremes"] | null;
+            b: components["schemas"]["BinExtremes"] | null;
+            /**
+             * Difference
+             * @description Of the means over time of each bin, B less A, where both have one.
+             */
+            difference: (number | null)[] | null;
         };
         /**
          * Session
@@ -7470,8 +7398,8 @@ export interface components {
             needs_first: boolean;
             signed_in: components["schemas"]["SignedIn"] | null;
         };
-        /** SettingsApart */
-        SettingsApart: {
+        /** SettingsDifference */
+        SettingsDifference: {
             a: components["schemas"]["SideSettings"];
             b: components["schemas"]["SideSettings"];
             /**
@@ -7483,7 +7411,7 @@ export interface components {
              * Tables
              * @description Those of which anything differs.
              */
-            tables: components["schemas"]["TablesApart"][];
+            tables: components["schemas"]["TableDifference"][];
         };
         /**
          * Setup
@@ -7575,7 +7503,7 @@ export interface components {
              */
             arm_limit_m: number;
             /** Gravity */
-            gravity: components["schemas"]["GravityAt"] | components["schemas"]["GravityGiven"];
+            gravity: components["schemas"]["GravityAt"] | components["schemas"]["GravityInput"];
             /** Masses */
             masses: components["schemas"]["MassRequest"][];
             /**
@@ -7719,8 +7647,8 @@ export interface components {
         };
         /** SideSettings */
         SideSettings: {
-            /** Known */
-            known: boolean;
+            /** Is Known */
+            is_known: boolean;
             /**
              * Why
              * @description Why the configuration is not known: a file brought the ride, its unit told none, or nobody kept what it told. Null where it is known.
@@ -8228,6 +8156,26 @@ export interface components {
             rows_per_second: number | null;
         };
         /**
+         * TableAnswerRequest
+         * @description What an owner says of a table. It is kept for every file with the same header.
+         */
+        TableAnswerRequest: {
+            /**
+             * Time Zone
+             * @description An IANA name: `Europe/Dublin`, `UTC`.
+             */
+            time_zone?: string | null;
+            /**
+             * Units
+             * @description By the column's name.
+             */
+            units?: {
+                [key: string]: string;
+            };
+            /** Rows Per Second */
+            rows_per_second?: number | null;
+        };
+        /**
          * TableColumn
          * @description One column of a table.
          */
@@ -8288,6 +8236,18 @@ export interface components {
             /** @description Looked for over a finer grid and at every point of both. */
             largest: components["schemas"]["LargestDifference"];
         };
+        /** TableDifference */
+        TableDifference: {
+            /**
+             * Which
+             * @enum {string}
+             */
+            which: "first" | "second";
+            left: components["schemas"]["FuzzyTable"];
+            right: components["schemas"]["FuzzyTable"];
+            /** Cells */
+            cells: components["schemas"]["CellChange"][];
+        };
         /**
          * TableQuestion
          * @description What must be said before a table is read.
@@ -8310,6 +8270,24 @@ export interface components {
             /** Columns */
             columns: components["schemas"]["TableColumn"][];
             answer: components["schemas"]["TableAnswer"] | null;
+        };
+        /** TableReview */
+        TableReview: {
+            /** Name */
+            name: string;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "table" | "configuration";
+            /** @description Null for a partial configuration that has none. */
+            fuzzy_table: components["schemas"]["FuzzyTable"] | null;
+            feel: components["schemas"]["Feel"] | null;
+            /**
+             * No Feel Reason
+             * @description Why nothing could be measured.
+             */
+            no_feel_reason: string | null;
         };
         /**
          * TableUse
@@ -8394,18 +8372,6 @@ export interface components {
             /** Torque Rate Points */
             torque_rate_points: number[];
         };
-        /** TablesApart */
-        TablesApart: {
-            /**
-             * Which
-             * @enum {string}
-             */
-            which: "first" | "second";
-            left: components["schemas"]["FuzzyTable"];
-            right: components["schemas"]["FuzzyTable"];
-            /** Cells */
-            cells: components["schemas"]["CellChange"][];
-        };
         /** TagInUse */
         TagInUse: {
             /** Tag */
@@ -8450,15 +8416,15 @@ export interface components {
             /** Torque Rates */
             torque_rates: number[];
             /**
-             * Asked Nm
+             * Demanded Nm
              * @description By the mode's law.
              */
-            asked_nm: number[][];
+            demanded_nm: number[][];
             /**
-             * Given Nm
+             * Delivered Nm
              * @description What is left of it after every limit.
              */
-            given_nm: number[][];
+            delivered_nm: number[][];
             /**
              * Limit Flags
              * @description Bits of the registry: what held it back.
@@ -8565,6 +8531,40 @@ export interface components {
             deviation: number;
             /** Range */
             range: number;
+        };
+        /** UnitComparison */
+        UnitComparison: {
+            /** Device Id */
+            device_id: string;
+            /**
+             * Stored M
+             * @description What the unit counts with.
+             */
+            stored_m: number;
+            /**
+             * Free Min M
+             * @description What may be set without the maker's token.
+             */
+            free_min_m: number | null;
+            /** Free Max M */
+            free_max_m: number | null;
+            /**
+             * In Band
+             * @description The measured value lies there; null: no band.
+             */
+            in_band: boolean | null;
+            /**
+             * Difference Pct
+             * @description Of the measured value from the stored one.
+             */
+            difference_pct: number;
+            /**
+             * Agrees
+             * @description They differ by no more than the expanded uncertainty.
+             */
+            agrees: boolean;
+            /** @description At what true speed the unit's assist cut-off lies; null: it has none. */
+            cut_off: components["schemas"]["CutOff"] | null;
         };
         /**
          * UnitLimits
@@ -8840,7 +8840,7 @@ export interface components {
              * @description Of a position, in each direction; null: rolled.
              */
             noise_m: number | null;
-            beside: components["schemas"]["BesideUnit"] | null;
+            unit_comparison: components["schemas"]["UnitComparison"] | null;
         };
         /**
          * WheelByTrack
@@ -8859,13 +8859,13 @@ export interface components {
              */
             track_ride_id?: number | null;
             /**
-             * Told Circumference M
-             * @description What the ride's device counts with; null: as its kept configuration says.
+             * Device Circumference M
+             * @description What the ride's device counts with; null: as its stored configuration says.
              */
-            told_circumference_m?: number | null;
+            device_circumference_m?: number | null;
             /**
              * Device Id
-             * @description A connected unit, to be told beside; null: none.
+             * @description A connected unit to compare with; null: none.
              */
             device_id?: string | null;
         };
@@ -8971,7 +8971,7 @@ export interface components {
         };
         /**
          * WhyMoment
-         * @description `steady`: held for `held_s`, nobody rode it. `ride`: `t_s` after its start.
+         * @description `steady`: held for `hold_s`, nobody rode it. `ride`: `t_s` after its start.
          */
         WhyMoment: {
             /**
@@ -8983,8 +8983,8 @@ export interface components {
             ride_id: number | null;
             /** T S */
             t_s: number | null;
-            /** Held S */
-            held_s: number | null;
+            /** Hold S */
+            hold_s: number | null;
         };
         /**
          * WhyRecorded
@@ -9052,11 +9052,11 @@ export interface components {
              */
             walk_button: boolean;
             /**
-             * Held S
+             * Hold S
              * @description For how long, from rest, at 100 steps a second
              * @default 10
              */
-            held_s: number;
+            hold_s: number;
             fuzzy_table?: components["schemas"]["FuzzyTable"] | null;
             /** @description Shares speed and torque-rate points with the first. */
             second_table?: components["schemas"]["FuzzyTable"] | null;
@@ -14752,7 +14752,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["PulsesTold"];
+                    "application/json": components["schemas"]["PulseComparison"];
                 };
             };
             /** @description The body is not JSON */
@@ -14908,7 +14908,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["ClimbTold"];
+                    "application/json": components["schemas"]["ClimbResult"];
                 };
             };
             /** @description The body is not JSON */
@@ -19591,7 +19591,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["SaidOfTable"];
+                "application/json": components["schemas"]["TableAnswerRequest"];
             };
         };
         responses: {
@@ -19675,7 +19675,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["KnownTables"];
+                    "application/json": components["schemas"]["AnsweredTables"];
                 };
             };
             /** @description Bad Request */

@@ -141,12 +141,12 @@ def test_a_wheel_turned_by_hand_tells_its_pulses(kept: int, true: int) -> None:
     times_us = period_us * np.where(places < 1, np.sqrt(places), places)
     wheel = Wheel(kept)
     seen = wheel.looks(times_us.tolist(), round(period_us * turns) + 3_000_000)
-    told_turns = sum(kmh for _, kmh in seen) * STEP_US / 1e6 / 3.6 / 2.073451
+    reported_turns = sum(kmh for _, kmh in seen) * STEP_US / 1e6 / 3.6 / 2.073451
 
-    found = pulses_per_turn(kept, told_turns, turns)
+    found = pulses_per_turn(kept, reported_turns, turns)
 
     assert abs(found.counted - true) <= found.expanded
-    assert (found.whole, found.agrees) == (true, kept == true)
+    assert (found.nearest_integer, found.agrees) == (true, kept == true)
 
 
 def test_few_turns_and_a_wheel_without_pulses_are_refused() -> None:
@@ -155,8 +155,8 @@ def test_few_turns_and_a_wheel_without_pulses_are_refused() -> None:
     assert [fault.code for fault in refused.value.fields] == ["too_few_turns", "no_pulses"]
     # Twenty turns tell 100 teeth from 101, and half a tooth is a miscount.
     more, half = pulses_per_turn(100, 20.2, 20), pulses_per_turn(36, 101.4, 100)
-    assert (more.whole, more.agrees) == (101, False)
-    assert (half.whole, half.agrees) == (None, False)
+    assert (more.nearest_integer, more.agrees) == (101, False)
+    assert (half.nearest_integer, half.agrees) == (None, False)
 
 
 def test_a_cadence_counted_for_a_minute_is_known_to_half_a_turn() -> None:

@@ -94,7 +94,7 @@ def test_a_larger_wheel_is_found_by_the_positions_of_its_own_ride(store: Store) 
     # Half a percent of positions that wander, one turn of 1700: rectangles, k = 2.
     share = math.hypot(0.005, 1 / told.turns) / math.sqrt(3)
     assert told.measured.expanded_m == pytest.approx(2 * share * LARGER * KEPT_M, rel=0.02)
-    assert told.beside is None
+    assert told.unit_comparison is None
 
 
 def test_the_positions_may_be_of_another_device_with_a_clock_of_its_own(store: Store) -> None:
@@ -123,7 +123,7 @@ def test_what_a_ride_lacks_for_its_wheel_is_named(store: Store) -> None:
     for question, source, expected in (
         (TrackQuestion(Window(bare)), "ride", ("ride_id", "missing_channel")),
         (TrackQuestion(Window(torn)), "ride", ("ride_id", "missing_rows")),
-        (TrackQuestion(Window(whole)), "defaults", ("told_circumference_m", "missing")),
+        (TrackQuestion(Window(whole)), "defaults", ("device_circumference_m", "missing")),
     ):
         with pytest.raises(InvalidRequest) as refused:
             measure(store, source).tracked(question, None)
@@ -156,8 +156,8 @@ def test_pulses_of_a_wheel_turned_by_hand_are_told_beside_the_unit_s(store: Stor
 
     told = PulseCount(store, lambda ride, t_s=0: (has, "ride"))(Window(ride), 25)
 
-    assert told.told_turns == pytest.approx(12.5, abs=0.05)  # 0.01 km/h
-    assert (told.pulses.kept, told.pulses.whole, told.pulses.agrees) == (36, 18, False)
+    assert told.reported_turns == pytest.approx(12.5, abs=0.05)  # 0.01 km/h
+    assert (told.pulses.stored, told.pulses.nearest_integer, told.pulses.agrees) == (36, 18, False)
     with pytest.raises(InvalidRequest) as refused:
         PulseCount(store, lambda ride, t_s=0: (has, "defaults"))(Window(ride), 25)
     assert codes(refused) == [("ride_id", "missing")]
@@ -190,14 +190,14 @@ def test_the_certificate_in_the_unit_tells_how_sure_the_calibration_is(store: St
     assert unknown.balance.en == pytest.approx(abs(ratio - 1) / expanded)
 
 
-def climb_of(store: Store, asked_nm: float | None, day: int = 1) -> Question:
+def climb_of(store: Store, demanded_nm: float | None, day: int = 1) -> Question:
     """A coast-down from 9 m/s by 10 N and a climb of 24 m, in rides of a head unit."""
     coast = kept(store, {"speed_kmh": 3.6 * np.linspace(9.0, 3.0, 60)})
     flat = np.full(121, 1.0)
     columns = {"speed_kmh": 3.6 * 4.0 * flat, "rider_torque_nm": 30.0 * flat}
     columns |= {"cadence_rpm": 70.0 * flat, "altitude_m": 400.0 + np.arange(121) / 5}
-    if asked_nm is not None:
-        columns["motor_torque_demanded_nm"] = asked_nm * flat
+    if demanded_nm is not None:
+        columns["motor_torque_demanded_nm"] = demanded_nm * flat
     slopes = [Slope(Window(coast), 0.0)]
     return Question(Slope(Window(kept(store, columns, day * DAY_S))), slopes, KNOWN, True, 0.0)
 
@@ -214,12 +214,12 @@ def test_a_motor_that_nobody_measured_takes_the_rider_s_word(store: Store) -> No
     ratio = told.balance.needed_energy_j / (0.97 * legs_j)
     assert told.balance.gain_ratio == pytest.approx(ratio, rel=1e-9)
     assert told.balance.needed_energy_j == pytest.approx(100 * 9.807 * 24 + 480 * 10.4, rel=0.01)
-    for day, asked_nm, motor_off, expected in (
+    for day, demanded_nm, motor_off, expected in (
         (2, 0.0, False, "motor_unknown"),
         (3, None, False, "motor_unknown"),
         (4, 0.5, True, "motor_helped"),
     ):
-        question = climb_of(store, asked_nm, day)
+        question = climb_of(store, demanded_nm, day)
         with pytest.raises(InvalidRequest) as refused:
             ClimbCheck(store, nobody)(
                 Question(question.climb, question.coast_downs, KNOWN, motor_off, 0.0)
@@ -244,8 +244,8 @@ def test_a_cadence_that_tells_less_than_the_crank_turns_is_told(store: Store) ->
     at_s = np.arange(0.0, 60.0, 0.05)
     angle_deg = (80.0 * 6.0 * at_s) % 360.0
 
-    def checked(told_rpm: float, day: int) -> Cadence:
-        columns = {"cadence_rpm": np.full(len(at_s), told_rpm), "crank_angle_deg": angle_deg}
+    def checked(reported_rpm: float, day: int) -> Cadence:
+        columns = {"cadence_rpm": np.full(len(at_s), reported_rpm), "crank_angle_deg": angle_deg}
         return CadenceCheck(store)(Window(kept(store, columns, day * DAY_S, row_s=0.05)))
 
     true, less = checked(80.0, 1), checked(78.0, 2)

@@ -59,10 +59,10 @@ def is_in(session: Session, state: LinkState) -> bool:
 
 
 def test_a_vanished_port(bench: Bench) -> None:
-    known_s, back_s = promised_s("the port vanishes")
+    detected_s, back_s = promised_s("the port vanishes")
 
     bench.session.port_failed(bench.now_s, LinkError("ttyUSB0: the port vanished."))
-    bench.run_until(lambda: is_in(bench.session, LinkState.LOST), known_s)
+    bench.run_until(lambda: is_in(bench.session, LinkState.LOST), detected_s)
     bench.run(20.0)
     bench.open_port(b"87654321")
 
@@ -70,10 +70,10 @@ def test_a_vanished_port(bench: Bench) -> None:
 
 
 def test_a_unit_that_stops_answering(bench: Bench, unit: FakeUnit) -> None:
-    known_s, back_s = promised_s("the unit stops answering")
+    detected_s, back_s = promised_s("the unit stops answering")
 
     unit.silent = True
-    bench.run_until(lambda: is_in(bench.session, LinkState.LOST), known_s + 0.02)
+    bench.run_until(lambda: is_in(bench.session, LinkState.LOST), detected_s + 0.02)
     assert "stopped answering" in bench.session.reason
     bench.run(20.0)
     unit.silent = False
@@ -82,10 +82,10 @@ def test_a_unit_that_stops_answering(bench: Bench, unit: FakeUnit) -> None:
 
 
 def test_a_unit_that_is_heard_and_does_not_hear(bench: Bench) -> None:
-    known_s, back_s = promised_s("only what the unit says still comes through")
+    detected_s, back_s = promised_s("only what the unit says still comes through")
 
     bench.to_unit = lambda data: b""
-    bench.run_until(lambda: is_in(bench.session, LinkState.LOST), known_s)
+    bench.run_until(lambda: is_in(bench.session, LinkState.LOST), detected_s)
     assert bench.session.reason
     bench.run(20.0)
     bench.to_unit = lambda data: data
@@ -96,11 +96,11 @@ def test_a_unit_that_is_heard_and_does_not_hear(bench: Bench) -> None:
 @pytest.mark.parametrize("tell", [True, False])
 def test_a_unit_that_starts_again(bench: Bench, unit: FakeUnit, tell: bool) -> None:
     lost_boot = "" if tell else " and its BOOT is lost"
-    known_s, back_s = promised_s(f"the unit starts again{lost_boot}")
+    detected_s, back_s = promised_s(f"the unit starts again{lost_boot}")
     before = len(bench.states())
 
     unit.restart(tell=tell)
-    bench.run_until(lambda: LinkState.CONNECTING in bench.states()[before:], known_s)
+    bench.run_until(lambda: LinkState.CONNECTING in bench.states()[before:], detected_s)
 
     bench.run_until(lambda: is_in(bench.session, LinkState.READY), back_s)
     assert bench.session.handshake is not None

@@ -74,6 +74,6 @@ def test_what_is_asked_at_the_crank_is_monotone_too_and_no_limit_adds_to_it(
 
     torque = torque_surface(config, SPORT, 30.0, np.linspace(0, 25, 9), np.linspace(0, 1, 9))
 
-    assert np.diff(torque.asked_nm, axis=1).min() >= -30.0 * 2 * ROUNDING
-    assert np.diff(torque.asked_nm, axis=0).max() <= 30.0 * 2 * ROUNDING
-    assert (torque.given_nm <= torque.asked_nm * (1.0 + ROUNDING)).all()
+    assert np.diff(torque.demanded_nm, axis=1).min() >= -30.0 * 2 * ROUNDING
+    assert np.diff(torque.demanded_nm, axis=0).max() <= 30.0 * 2 * ROUNDING
+    assert (torque.delivered_nm <= torque.demanded_nm * (1.0 + ROUNDING)).all()

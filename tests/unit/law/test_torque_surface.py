@@ -34,23 +34,23 @@ def config(**changes: object) -> dict[str, object]:
 def test_what_nothing_holds_back_arrives_as_it_is_asked_up_to_the_cut_off() -> None:
     surface = torque_surface(config(), SPORT, 10.0, SPEEDS_KMH, RATES)
 
-    assert surface.asked_nm == pytest.approx(15.0, rel=1e-3)
-    assert surface.given_nm[:5] == pytest.approx(15.0, rel=1e-3)
+    assert surface.demanded_nm == pytest.approx(15.0, rel=1e-3)
+    assert surface.delivered_nm[:5] == pytest.approx(15.0, rel=1e-3)
     assert surface.limit_flags[:5].max() == 0
     # EN 15194, 4.2.12: none at 25 km/h.
-    assert surface.given_nm[5].max() == 0.0
+    assert surface.delivered_nm[5].max() == 0.0
     assert (surface.limit_flags[5] & law.LIMITS["speed_cutoff"] > 0).all()
 
 
 def test_the_motor_and_the_rating_of_the_market_take_what_their_own_figures_say() -> None:
     gear_ratio = float(law_defaults()["gear_ratio"])
     weak = torque_surface(config(motor_torque_nm_max=0.5), SPORT, 30.0, SPEEDS_KMH[:5], RATES)
-    assert weak.given_nm == pytest.approx(0.5 * gear_ratio, rel=1e-3)
+    assert weak.delivered_nm == pytest.approx(0.5 * gear_ratio, rel=1e-3)
     assert (weak.limit_flags & law.LIMITS["motor_torque"] > 0).all()
 
     rated = torque_surface(config(), SPORT, 50.0, SPEEDS_KMH[:5], RATES)
     # 471 W are asked; 250 W are allowed for long (EN 15194, scope), at one turn a second.
-    assert rated.given_nm * CRANK_RAD_PER_S == pytest.approx(250.0, rel=0.01)
+    assert rated.delivered_nm * CRANK_RAD_PER_S == pytest.approx(250.0, rel=0.01)
     assert (rated.limit_flags & law.LIMITS["market"] > 0).all()
 
 
@@ -75,7 +75,7 @@ def test_it_is_what_the_law_gives_after_five_minutes(rider_torque_nm: float) -> 
         )
         one.hold(inputs, float(RATES[column]), FIVE_MINUTES)
         held_nm = one.trace(inputs).output["motor_torque_nm"] * known["gear_ratio"]
-        assert surface.given_nm[row, column] == pytest.approx(held_nm, rel=0.01, abs=0.05)
+        assert surface.delivered_nm[row, column] == pytest.approx(held_nm, rel=0.01, abs=0.05)
 
 
 def test_a_slow_ramp_does_not_tell_because_it_ends() -> None:
@@ -83,7 +83,7 @@ def test_a_slow_ramp_does_not_tell_because_it_ends() -> None:
 
     surface = torque_surface(slow, SPORT, 10.0, SPEEDS_KMH[:5], RATES)
 
-    assert surface.given_nm == pytest.approx(15.0, rel=1e-3)
+    assert surface.delivered_nm == pytest.approx(15.0, rel=1e-3)
 
 
 def test_what_the_unit_refuses_and_a_grid_beyond_all_need_are_refused() -> None:

@@ -179,8 +179,8 @@ def test_a_gap_in_the_positions_stays_open_and_time_goes_on() -> None:
     assert open_s.max() < 1100
     assert (np.diff(found.t_s) > 0).all()
     assert (np.diff(found.distance_m) >= 0).all()
-    known_s = found.t_s[~np.isnan(found.latitude_deg)]
-    assert {999.0, 1100.0} <= set(known_s)
+    valid_s = found.t_s[~np.isnan(found.latitude_deg)]
+    assert {999.0, 1100.0} <= set(valid_s)
 
 
 def test_a_pause_of_the_recorder_is_a_gap_too() -> None:

@@ -38,7 +38,7 @@ def test_power_zones_are_those_of_allen_and_coggan() -> None:
     assert told is not None
     assert [band.seconds for band in told.bands] == [1, 2, 1, 2, 1, 1, 2]
     assert [band.high for band in told.bands] == pytest.approx([110, 150, 180, 210, 240, 300, None])
-    assert (told.zones, told.known_s, told.unknown_s) == (True, 10.0, 1.0)
+    assert (told.zones, told.valid_s, told.unknown_s) == (True, 10.0, 1.0)
 
 
 def test_without_a_threshold_there_are_bands_and_no_zones() -> None:
@@ -76,7 +76,7 @@ def test_torque_of_a_head_unit_is_power_over_cadence() -> None:
         (30.0, 1),
         (None, 1),
     ]
-    assert turns.known_s == 2.0
+    assert turns.valid_s == 2.0
     assert power_time(whole_seconds(cadence_rpm=[60]), 200.0) is None
 
 
@@ -91,10 +91,10 @@ def test_the_swing_within_a_stroke_is_in_no_zone() -> None:
     assert [band.seconds for band in told.bands] == pytest.approx([0, 0, 0, 10, 0, 0, 0])
 
 
-def searched(power: np.ndarray, start_s: np.ndarray, held_s: np.ndarray, length: int) -> float:
+def searched(power: np.ndarray, start_s: np.ndarray, row_s: np.ndarray, length: int) -> float:
     """The best mean by trying every tenth of a second."""
-    timeline = np.full(round((start_s[-1] + held_s[-1]) * 10), np.nan)
-    for watts, begin, held in zip(power, start_s, held_s, strict=True):
+    timeline = np.full(round((start_s[-1] + row_s[-1]) * 10), np.nan)
+    for watts, begin, held in zip(power, start_s, row_s, strict=True):
         timeline[round(begin * 10) : round((begin + held) * 10)] = watts
     windows = np.lib.stride_tricks.sliding_window_view(timeline, length * 10)
     means = windows.mean(axis=1)
@@ -104,31 +104,31 @@ def searched(power: np.ndarray, start_s: np.ndarray, held_s: np.ndarray, length:
 @pytest.mark.parametrize("seed", range(5))
 def test_the_power_curve_is_what_trying_every_begin_finds(seed: int) -> None:
     random = np.random.default_rng(seed)
-    held_s = random.integers(1, 40, 300) / 10.0
+    row_s = random.integers(1, 40, 300) / 10.0
     pauses = np.where(random.random(300) < 0.02, 20.0, 0.0)
-    start_s = np.append(0.0, np.cumsum(held_s + pauses)[:-1])
+    start_s = np.append(0.0, np.cumsum(row_s + pauses)[:-1])
     power = random.uniform(0.0, 500.0, 300).round()
     power[random.random(300) < 0.01] = np.nan
 
-    curve = power_curve(power, start_s, held_s)
+    curve = power_curve(power, start_s, row_s)
 
     assert len(curve) > 6
     for best in curve[:-1]:
         assert best.power_w == pytest.approx(
-            searched(power, start_s, held_s, int(best.duration_s)), abs=1e-6
+            searched(power, start_s, row_s, int(best.duration_s)), abs=1e-6
         )
-    assert searched(power, start_s, held_s, int(curve[-1].duration_s) + 1) == -1.0
+    assert searched(power, start_s, row_s, int(curve[-1].duration_s) + 1) == -1.0
 
 
 def test_even_rows_with_a_hole_are_searched_as_exactly() -> None:
     random = np.random.default_rng(9)
     power = random.uniform(0.0, 500.0, 3000).round()
     power[[700, 701, 2000]] = np.nan
-    start_s, held_s = np.arange(3000) / 10.0, np.full(3000, 0.1)
+    start_s, row_s = np.arange(3000) / 10.0, np.full(3000, 0.1)
 
-    for best in power_curve(power, start_s, held_s)[:-1]:
+    for best in power_curve(power, start_s, row_s)[:-1]:
         assert best.power_w == pytest.approx(
-            searched(power, start_s, held_s, int(best.duration_s)), abs=1e-6
+            searched(power, start_s, row_s, int(best.duration_s)), abs=1e-6
         )
 
 

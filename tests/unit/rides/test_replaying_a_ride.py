@@ -80,21 +80,21 @@ def test_what_took_the_torque_away_on_the_ride_takes_it_away_in_its_replay(
 ) -> None:
     held = while_held(value, PUSHING[channel])
 
-    given_nm = motor_nm(replayed(store, pushing(**{channel: held})))
+    delivered_nm = motor_nm(replayed(store, pushing(**{channel: held})))
 
-    assert given_nm[HELD.start - 1] > 0.5
-    assert not given_nm[HELD].any()
-    assert given_nm[-1] > 0.5
+    assert delivered_nm[HELD.start - 1] > 0.5
+    assert not delivered_nm[HELD].any()
+    assert delivered_nm[-1] > 0.5
 
 
 def test_a_torque_that_was_too_old_is_let_go_in_the_replay_too(store: Store) -> None:
     aged = while_held(1000.0, 2.0)
 
-    given_nm = motor_nm(replayed(store, pushing(torque_age_ms=aged)))
+    delivered_nm = motor_nm(replayed(store, pushing(torque_age_ms=aged)))
 
     # 30 Nm at the crank fall by at least 400 Nm a second.
-    assert given_nm[HELD.start - 1] > 0.5
-    assert not given_nm[HELD.start + 8 : HELD.stop].any()
+    assert delivered_nm[HELD.start - 1] > 0.5
+    assert not delivered_nm[HELD.start + 8 : HELD.stop].any()
 
 
 def test_a_ride_of_before_is_replayed_with_the_brake_off_and_the_answer_says_so(
@@ -233,13 +233,13 @@ def test_mean_power_and_ripple_are_of_the_time_on_the_way(store: Store) -> None:
     assert answer["motor_power_w_mean"]["recorded"] == pytest.approx(
         watts.sum() / np.count_nonzero(speed_kmh), rel=1e-3
     )
-    given_nm = motor_nm(answer)
-    rises = np.diff(given_nm)[speed_kmh[1:] > 0.0] * 100.0
+    delivered_nm = motor_nm(answer)
+    rises = np.diff(delivered_nm)[speed_kmh[1:] > 0.0] * 100.0
     assert answer["ripple_nm_per_s"]["replayed"] == pytest.approx(
         np.sqrt(np.mean(rises**2)), rel=0.01
     )
     assert answer["motor_power_w_mean"]["replayed"] == pytest.approx(
-        given_nm.sum() * 2400.0 * np.pi / 30.0 / np.count_nonzero(speed_kmh), rel=1e-3
+        delivered_nm.sum() * 2400.0 * np.pi / 30.0 / np.count_nonzero(speed_kmh), rel=1e-3
     )
 
 

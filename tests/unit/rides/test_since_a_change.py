@@ -51,8 +51,8 @@ class Workshop:
         the ride the next configuration came into force."""
         values = {"speed_kmh": 36.0, "cadence_rpm": 60.0, "rider_torque_nm": 20.0}
         if motor_w is not None:
-            given_nm = motor_w / MOTOR_RAD_S
-            values |= {"motor_torque_nm": given_nm, "motor_torque_demanded_nm": given_nm}
+            delivered_nm = motor_w / MOTOR_RAD_S
+            values |= {"motor_torque_nm": delivered_nm, "motor_torque_demanded_nm": delivered_nm}
             values |= {"motor_speed_rpm": 2400.0}
         columns = {name: np.full(seconds * 1_000_000 // PERIOD_US, v) for name, v in values.items()}
         self.now_us += HOUR_US

@@ -100,8 +100,8 @@ def test_the_ride_tells_every_sample_two_seconds_before_to_one_after(bench: Benc
     told = bench.moment("dev", "torque_sensor")
 
     assert (told.source, told.ride_id, told.ride_t_s) == ("ride", ride_id, 6.0)
-    assert told.whole
-    assert told.came_at == datetime.fromtimestamp(1_700_000_006, UTC)
+    assert told.complete
+    assert told.occurred_at == datetime.fromtimestamp(1_700_000_006, UTC)
     assert list(told.at_s) == [round(row / 100, 2) for row in range(-200, 101)]
     assert told.rider_torque_nm[:200] == [row / 100 for row in range(400, 600)]
     assert told.rider_torque_nm[200:] == [None] * 101
@@ -117,7 +117,7 @@ def test_a_ride_that_is_recorded_tells_what_it_has_and_that_more_is_to_come(benc
 
     assert told.source == "ride"
     assert told.at_s[-1] == 0.49
-    assert not told.whole
+    assert not told.complete
 
 
 def test_a_ride_that_began_or_ended_near_the_fault_tells_no_more_than_its_rows(
@@ -128,7 +128,7 @@ def test_a_ride_that_began_or_ended_near_the_fault_tells_no_more_than_its_rows(
     told = bench.moment("dev", "torque_sensor")
 
     assert (told.at_s[0], told.at_s[-1]) == (-0.3, 0.69)
-    assert told.whole
+    assert told.complete
 
 
 def test_without_a_ride_the_stream_tells_it_with_lost_rows_as_missing(bench: Bench) -> None:
@@ -137,7 +137,7 @@ def test_without_a_ride_the_stream_tells_it_with_lost_rows_as_missing(bench: Ben
 
     told = bench.moment("dev", "torque_sensor")
 
-    assert (told.source, told.ride_id, told.whole) == ("stream", None, True)
+    assert (told.source, told.ride_id, told.complete) == ("stream", None, True)
     assert (told.at_s[0], told.at_s[-1]) == (-2.0, 1.0)
     at = dict(zip(told.at_s, told.rider_torque_nm, strict=True))
     assert at[-1.01] == 4.99

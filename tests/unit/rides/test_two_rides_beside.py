@@ -15,7 +15,7 @@ from backend.core.channels import Values
 from backend.core.energy import DELIVERED, DEMANDED
 from backend.rides.comparison.figures import Figure, Stretch, compared
 from backend.rides.comparison.grid import Laid, binned
-from backend.rides.comparison.same_way import Positions, same_way
+from backend.rides.comparison.route_overlap import Positions, route_overlap
 
 DEG_M = math.pi * 6_371_008.8 / 180.0
 HOUR_S = 3600
@@ -158,7 +158,7 @@ def turned(there: Positions) -> Positions:
 
 
 def test_a_parallel_way_is_the_same_up_to_thirty_metres() -> None:
-    lane, next_road = (same_way(north(2000.0), north(2000.0, off)) for off in (25.0, 40.0))
+    lane, next_road = (route_overlap(north(2000.0), north(2000.0, off)) for off in (25.0, 40.0))
 
     assert lane is not None
     assert next_road is not None
@@ -167,7 +167,7 @@ def test_a_parallel_way_is_the_same_up_to_thirty_metres() -> None:
 
 
 def test_a_longer_ride_has_the_shorter_one_in_it_and_not_the_other_way_round() -> None:
-    told = same_way(north(1000.0), north(4000.0))
+    told = route_overlap(north(1000.0), north(4000.0))
 
     assert told is not None
     assert told.a_near_b == 1.0
@@ -177,7 +177,10 @@ def test_a_longer_ride_has_the_shorter_one_in_it_and_not_the_other_way_round() -
 
 def test_the_same_road_lines_up_by_distance_only_in_the_same_direction_and_measure() -> None:
     there = north(2000.0)
-    back, measured = same_way(there, turned(there)), same_way(there, north(2000.0, longer=1.02))
+    back, measured = (
+        route_overlap(there, turned(there)),
+        route_overlap(there, north(2000.0, longer=1.02)),
+    )
 
     assert back is not None
     assert measured is not None
@@ -191,7 +194,7 @@ def test_nothing_is_walked_over_a_gap() -> None:
     whole, holed = north(3000.0), north(3000.0)
     holed.latitude_deg[200:400] = np.nan
 
-    told = same_way(whole, holed)
+    told = route_overlap(whole, holed)
 
     assert told is not None
     assert told.b_near_a == 1.0
@@ -202,5 +205,5 @@ def test_without_positions_nobody_knows() -> None:
     nowhere: Values = np.full(100, np.nan)
     lost = Positions(nowhere, nowhere, np.arange(100.0), None)
 
-    assert same_way(lost, north(1000.0)) is None
-    assert same_way(north(1000.0), lost) is None
+    assert route_overlap(lost, north(1000.0)) is None
+    assert route_overlap(north(1000.0), lost) is None

@@ -45,7 +45,7 @@ def test_the_figures_of_a_whole_ride_are_those_of_its_summary(store: Store) -> N
     assert apart["motor_wh"] == apart["distance_km"] == 0.0
     ratio = one["motor_per_rider"]
     assert apart["motor_per_rider"] == pytest.approx(ratio / 1.5 - ratio, rel=1e-3)
-    assert (told["same_way"], told["no_way"]) == (None, "neither")
+    assert (told["route_overlap"], told["no_route"]) == (None, "neither")
 
 
 def test_two_windows_of_a_ride_are_laid_from_their_own_starts(store: Store) -> None:
@@ -132,7 +132,11 @@ def test_settings_that_nobody_kept_are_not_compared(store: Store) -> None:
 
     told = RideComparison(store, nobody)(Window(a), Window(b))["settings"]
 
-    assert (told["a"]["known"], told["b"]["known"], told["b"]["why"]) == (True, False, "imported")
+    assert (told["a"]["is_known"], told["b"]["is_known"], told["b"]["why"]) == (
+        True,
+        False,
+        "imported",
+    )
     assert (told["differences"], told["tables"]) == (None, [])
 
 

@@ -30,9 +30,9 @@ def test_the_modes_come_to_the_whole_ride(store: Store) -> None:
     assert [(one["mode"], one["name"]) for one in told["modes"]] == [(1, "eco"), (3, "sport")]
     assert [one["seconds"] for one in told["modes"]] == pytest.approx([3.0, 7.0])
     for figure in ("rider_wh", "motor_wh", "battery_wh", "distance_km"):
-        assert told["whole"][figure] == pytest.approx(getattr(summary, figure), rel=1e-3)
-        assert sum(one[figure] for one in told["modes"]) == pytest.approx(told["whole"][figure])
-    assert told["whole"]["rider_wh"] == pytest.approx(RIDER_W * 10.0 / 3600.0, rel=1e-3)
+        assert told["total"][figure] == pytest.approx(getattr(summary, figure), rel=1e-3)
+        assert sum(one[figure] for one in told["modes"]) == pytest.approx(told["total"][figure])
+    assert told["total"]["rider_wh"] == pytest.approx(RIDER_W * 10.0 / 3600.0, rel=1e-3)
     assert told["battery_wh_per_km"] == pytest.approx(72.0 / 12.0, rel=1e-3), "36 V, 2 A, 12 km/h"
     assert (told["gradients"], told["climb"], told["range_refused"]) == (None, None, "no_charge")
 
@@ -42,8 +42,8 @@ def test_a_mode_has_no_name_that_nobody_kept(store: Store) -> None:
     told = Insight(store, nobody_kept).energy(asked_only)
 
     assert [one["name"] for one in told["modes"]] == [None]
-    assert (told["whole"]["motor_wh"], told["whole"]["motor_per_rider"]) == (None, None)
-    assert told["whole"]["rider_wh"] is None, "it has the sensor's counts, and no torque"
+    assert (told["total"]["motor_wh"], told["total"]["motor_per_rider"]) == (None, None)
+    assert told["total"]["rider_wh"] is None, "it has the sensor's counts, and no torque"
 
 
 def test_zones_need_the_riders_threshold(store: Store) -> None:

@@ -41,7 +41,7 @@ PUSHING = {
     "motor_torque_demanded_nm": 0.6,
 }
 STATE = {"speed_kmh": 12.0, "torque_rate": 0.0, "rider_torque_nm": 20.0, "cadence_rpm": 50.0}
-STATE |= {"mode": 3, "held_s": 5.0}
+STATE |= {"mode": 3, "hold_s": 5.0}
 
 
 def config_of(ride: Ride, t_s: float = 0.0) -> tuple[dict[str, Any], str]:
@@ -159,7 +159,7 @@ def test_a_steady_state_says_that_it_is_one_and_which_law_it_is(
 ) -> None:
     answer = WhySteady(nobody)({**STATE, **change}, {})
 
-    assert answer["moment"] == {"kind": "steady", "ride_id": None, "t_s": None, "held_s": 5.0}
+    assert answer["moment"] == {"kind": "steady", "ride_id": None, "t_s": None, "hold_s": 5.0}
     assert (answer["law"], answer["config_source"], answer["delivered_nm"]) == (law, "given", None)
     assert [step["name"] for step in answer["steps"]][:3] == ["rider_torque", "mode_ratio", shaped]
     assert (answer["gain"] is None, not answer["rules"]) == (law != "fuzzy", law != "fuzzy")

@@ -72,10 +72,10 @@ def test_a_traced_step_is_the_same_to_the_bit_and_its_parts_add_up() -> None:
             told = [traced.output[name] for name in OUTPUT_DTYPE.names or ()]
             np.testing.assert_array_equal(told, output[0].tolist())
             assert memory_of(plain) == memory_of(law._state)
-            given_nm = float(output["motor_torque_nm"][0]) * float(native.gear_ratio)
+            delivered_nm = float(output["motor_torque_nm"][0]) * float(native.gear_ratio)
             left_nm = np.array(list(traced.left_nm.values()))
             total_nm = float(np.diff(left_nm, prepend=0.0).sum())
-            assert total_nm == pytest.approx(given_nm, rel=1e-6, abs=1e-30)
+            assert total_nm == pytest.approx(delivered_nm, rel=1e-6, abs=1e-30)
             assert np.all(np.diff(left_nm[TRACE_STEPS.index("ramps") :]) <= 0.0), traced
             for name, change in zip(TRACE_STEPS, np.diff(left_nm, prepend=0.0), strict=True):
                 took[name] += change != 0.0

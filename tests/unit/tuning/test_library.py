@@ -371,7 +371,7 @@ def test_a_configuration_no_unit_takes_together_is_compared_but_not_felt(
     answer = client.post(f"{LIBRARY}/compare", json=asked).json()
 
     assert answer["left"]["feel"] is None
-    assert "No simulated unit takes these values" in answer["left"]["not_felt"]
+    assert "No simulated unit takes these values" in answer["left"]["no_feel_reason"]
     assert (answer["tables"], answer["left"]["fuzzy_table"]) == (None, None)
     taper = next(each for each in answer["parameters"] if each["name"] == "fixed_taper_start_kmh")
     assert (taper["old"], taper["new"]) == (24.5, 15.0)

@@ -1,4 +1,4 @@
-// Dates and shares of temperature as the drift watch tells them.
+// Dates and shares of temperature as the drift watch shows them.
 import type { Locale } from '$shared/i18n/locale.svelte'
 import type { Units } from '$shared/units/units.svelte'
 

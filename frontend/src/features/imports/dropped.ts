@@ -1,4 +1,5 @@
-// What was dropped or chosen, also whole folders: the files within, without those a system hides.
+// What was dropped or chosen, also complete folders: the files within, without those a system
+// hides.
 
 /** Files of a drop; folders are gone through. */
 export async function droppedFiles(transfer: DataTransfer | null): Promise<File[]> {
@@ -7,11 +8,11 @@ export async function droppedFiles(transfer: DataTransfer | null): Promise<File[
     .map((item) => item.webkitGetAsEntry?.() ?? null)
     .filter((entry) => entry !== null)
   if (!entries.some((entry) => entry.isDirectory)) return [...(transfer?.files ?? [])]
-  const found = await Promise.all(entries.map(filesOf))
-  return shownFiles(found.flat())
+  const files = await Promise.all(entries.map(filesOf))
+  return shownFiles(files.flat())
 }
 
-/** Those that a person put there: `.DS_Store` and the like are nobody's rides. */
+/** Without files of the system such as `.DS_Store`. */
 export const shownFiles = (files: Iterable<File>): File[] =>
   [...files].filter(({ name }) => !name.startsWith('.'))
 
@@ -20,13 +21,13 @@ async function filesOf(entry: FileSystemEntry): Promise<File[]> {
     return [await new Promise((done, fail) => (entry as FileSystemFileEntry).file(done, fail))]
   }
   const reader = (entry as FileSystemDirectoryEntry).createReader()
-  const found: File[] = []
+  const files: File[] = []
   // A reader gives a hundred at a time, and none at the end.
   for (;;) {
     const some = await new Promise<FileSystemEntry[]>((done, fail) => {
       reader.readEntries(done, fail)
     })
-    if (some.length === 0) return found
-    found.push(...(await Promise.all(some.map(filesOf))).flat())
+    if (some.length === 0) return files
+    files.push(...(await Promise.all(some.map(filesOf))).flat())
   }
 }

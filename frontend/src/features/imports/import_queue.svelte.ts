@@ -13,7 +13,7 @@ export interface Arrival {
   share: number
   standing: Standing
   upload: Upload | null
-  trouble: string | null
+  problem: string | null
 }
 
 interface Job {
@@ -28,7 +28,7 @@ export class ImportQueue {
   arrivals = $state.raw<Arrival[]>([])
   paused = $state(false)
   /** Why it paused by itself. */
-  trouble = $state<string | null>(null)
+  problem = $state<string | null>(null)
   private queue: Job[] = []
   private next_id = 1
   private going = 0
@@ -56,7 +56,7 @@ export class ImportQueue {
       const id = this.next_id++
       const { name, size } = file
       const shown = { name: file.webkitRelativePath || name, size, share: 0 }
-      const rest = { standing: 'waiting' as const, upload: null, trouble: null }
+      const rest = { standing: 'waiting' as const, upload: null, problem: null }
       return [{ id, file }, { id, ...shown, ...rest }]
     })
     this.queue.push(...fresh.map(([job]) => job))
@@ -86,7 +86,7 @@ export class ImportQueue {
     return total > 0 ? this.weightDone / total : 0
   }
 
-  /** Seconds to the end at the speed so far; null while nobody can say. */
+  /** Seconds to the end at the speed so far; null while unknown. */
   get left_s(): number | null {
     const spent_s = (this.now_ms() - this.began_ms) / 1000
     const gone = this.share - this.began_share
@@ -100,7 +100,7 @@ export class ImportQueue {
 
   resume(): void {
     this.paused = false
-    this.trouble = null
+    this.problem = null
     // The time of the pause is none of the speed.
     this.began_ms = this.now_ms()
     this.began_share = this.share
@@ -160,15 +160,15 @@ export class ImportQueue {
     } catch (error) {
       if (error instanceof Stopped) this.change(id, { standing: 'stopped' })
       else if (error instanceof Refusal && error.status === 0) this.wait(job, error.message)
-      else this.change(id, { standing: 'rejected', trouble: (error as Error).message })
+      else this.change(id, { standing: 'rejected', problem: (error as Error).message })
     }
   }
 
   // The server is away: the file is not at fault, and the others would fare no better.
-  private wait(job: Job, trouble: string): void {
+  private wait(job: Job, problem: string): void {
     this.change(job.id, { standing: 'waiting' })
     this.queue.unshift(job)
-    this.trouble = trouble
+    this.problem = problem
     this.paused = true
   }
 

@@ -85,7 +85,7 @@ it('pauses by itself while the server is away, and loses no file', async () => {
   const queue = new ImportQueue(() => undefined, sender.send)
   const all = queue.take(files('a', 'b', 'c', 'd'))
   await turn()
-  expect([queue.paused, queue.trouble, queue.count.rejected]).toEqual([true, 'no server', 0])
+  expect([queue.paused, queue.problem, queue.count.rejected]).toEqual([true, 'no server', 0])
 
   sender.fault = null
   queue.resume()

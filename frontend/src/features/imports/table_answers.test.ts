@@ -1,7 +1,7 @@
-/* Goal: a unit is never chosen for a rider, and a table is read when all that is asked is said. */
+/* Goal: a unit is never chosen for a rider, and a table is read once every question is answered. */
 import type { TableQuestion } from '$shared/api/types'
 import { describe, expect, it } from 'vitest'
-import { answered, isWhole } from './table_answers'
+import { answered, isComplete } from './table_answers'
 
 const column = (name: string, units: string[]) => ({
   name,
@@ -19,7 +19,7 @@ const question: TableQuestion = {
   answer: null,
 }
 
-describe('what is said of a table', () => {
+describe('answers about a table', () => {
   it('begins with the zone of here and no unit', () => {
     expect(answered(question, 'Europe/Dublin')).toEqual({
       zone: 'Europe/Dublin',
@@ -28,17 +28,17 @@ describe('what is said of a table', () => {
     })
   })
 
-  it('begins with what was said before, as far as it can still be said', () => {
-    const known = { time_zone: 'UTC', units: { speed: 'knots' }, rows_per_second: 5 }
-    const said = answered({ ...question, answer: known }, 'Europe/Dublin')
-    expect(said).toEqual({ zone: 'UTC', units: { speed: '' }, rate: 5 })
+  it('begins with the earlier answers, as far as they still apply', () => {
+    const stored = { time_zone: 'UTC', units: { speed: 'knots' }, rows_per_second: 5 }
+    const draft = answered({ ...question, answer: stored }, 'Europe/Dublin')
+    expect(draft).toEqual({ zone: 'UTC', units: { speed: '' }, rate: 5 })
   })
 
-  it('is whole with a zone, each unit, and a rate where rows have no time', () => {
-    const said = { zone: 'UTC', units: { speed: 'm/s' }, rate: null }
-    expect(isWhole(question, said)).toBe(true)
-    expect(isWhole(question, { ...said, zone: ' ' })).toBe(false)
-    expect(isWhole(question, { ...said, units: { speed: '' } })).toBe(false)
-    expect(isWhole({ ...question, rows_per_second: true }, said)).toBe(false)
+  it('is complete with a zone, each unit, and a rate where rows have no time', () => {
+    const draft = { zone: 'UTC', units: { speed: 'm/s' }, rate: null }
+    expect(isComplete(question, draft)).toBe(true)
+    expect(isComplete(question, { ...draft, zone: ' ' })).toBe(false)
+    expect(isComplete(question, { ...draft, units: { speed: '' } })).toBe(false)
+    expect(isComplete({ ...question, rows_per_second: true }, draft)).toBe(false)
   })
 })

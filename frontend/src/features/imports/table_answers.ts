@@ -1,18 +1,18 @@
-// What an owner says of a table, as far as it is said.
+// An owner's answers about a table, as far as given.
 import type { TableQuestion } from '$shared/api/types'
 
-export interface Said {
+export interface AnswerDraft {
   zone: string
   /** By the column's name; '' until it is chosen. */
   units: Record<string, string>
   rate: number | null
 }
 
-/** What was said before, and the rider's own zone; a unit is never chosen for him. */
-export function answered(question: TableQuestion, here: string): Said {
+/** The earlier answers, and the rider's own zone; a unit is never chosen for the rider. */
+export function answered(question: TableQuestion, here: string): AnswerDraft {
   const before = question.answer
-  const asked = question.columns.filter(({ units }) => units.length > 0)
-  const units = asked.map(({ name, units }) => {
+  const with_units = question.columns.filter(({ units }) => units.length > 0)
+  const units = with_units.map(({ name, units }) => {
     const unit = before?.units[name] ?? ''
     return [name, units.includes(unit) ? unit : ''] as const
   })
@@ -23,13 +23,13 @@ export function answered(question: TableQuestion, here: string): Said {
   }
 }
 
-/** Whether everything that is asked is said. */
-export function isWhole(question: TableQuestion, said: Said): boolean {
+/** Whether every question is answered. */
+export function isComplete(question: TableQuestion, draft: AnswerDraft): boolean {
   return (
-    (!question.time_zone || said.zone.trim() !== '') &&
-    (!question.rows_per_second || (said.rate ?? 0) > 0) &&
+    (!question.time_zone || draft.zone.trim() !== '') &&
+    (!question.rows_per_second || (draft.rate ?? 0) > 0) &&
     question.columns.every(
-      ({ name, units }) => units.length === 0 || units.includes(said.units[name] ?? ''),
+      ({ name, units }) => units.length === 0 || units.includes(draft.units[name] ?? ''),
     )
   )
 }

@@ -12,20 +12,20 @@ const QUIET_MS = 5000
 export const isFetched = (log: UnitLog) => log.download?.state === 'done'
 export const isRunning = (log: UnitLog) =>
   log.download !== null && !['done', 'failed'].includes(log.download.state)
-/** Whether nobody has it and nobody is about to. */
+/** Whether it is not downloaded and no download is under way. */
 export const isUnfetched = (log: UnitLog) =>
   log.state !== 'recording' && !log.confirmed && !isFetched(log) && !isRunning(log)
 
 export class UnitRides {
   logs = $state.raw<UnitLog[] | null>(null)
   overwritten = $state(0)
-  trouble = $state<string | null>(null)
-  /** This unit keeps none. */
+  problem = $state<string | null>(null)
+  /** This unit stores none. */
   none = $state(false)
-  /** Asked once; or there was nobody to ask. */
-  looked = $state(false)
+  /** Whether the first request was sent, or none was possible. */
+  loaded = $state(false)
   private done = 0
-  private wanted = true
+  private running = true
   private timer: ReturnType<typeof setTimeout> | undefined
 
   constructor(
@@ -40,21 +40,21 @@ export class UnitRides {
     return (this.logs ?? []).filter(isUnfetched)
   }
 
-  /** Looks at the unit until it is stopped. */
+  /** Polls the unit until stopped. */
   async watch(): Promise<void> {
     if (!document.hidden && this.isReady()) await this.load()
-    this.looked = true
-    const soon = (this.logs === null && !this.trouble) || this.logs?.some(isRunning)
-    if (!this.wanted) return
+    this.loaded = true
+    const soon = (this.logs === null && !this.problem) || this.logs?.some(isRunning)
+    if (!this.running) return
     this.timer = setTimeout(() => void this.watch(), soon ? BUSY_MS : QUIET_MS)
   }
 
   stop(): void {
-    this.wanted = false
+    this.running = false
     clearTimeout(this.timer)
   }
 
-  /** Has them fetched one after the other; what cannot be is told. */
+  /** Has them fetched one after the other; failures are shown. */
   fetch(logs: UnitLog[]): Promise<boolean> {
     return this.trying(async () => {
       for (const { log_id } of logs) await this.server.fetchLog(this.id, log_id)
@@ -70,7 +70,7 @@ export class UnitRides {
       await work()
     } catch (error) {
       if (!(error instanceof Refusal)) throw error
-      this.trouble = refusalText(this.locale, error)
+      this.problem = refusalText(this.locale, error)
       return false
     }
     await this.load()
@@ -79,17 +79,17 @@ export class UnitRides {
 
   private async load(): Promise<void> {
     try {
-      const found = await this.server.unitLogs(this.id)
-      this.logs = [...found.items].reverse()
-      this.overwritten = found.overwritten
-      this.trouble = null
+      const answer = await this.server.unitLogs(this.id)
+      this.logs = [...answer.items].reverse()
+      this.overwritten = answer.overwritten
+      this.problem = null
       const count = this.logs.filter(isFetched).length
       if (count > this.done) this.arrived()
       this.done = count
     } catch (error) {
       if (!(error instanceof Refusal)) throw error
       this.none = error.status === 409 && this.logs === null
-      this.trouble = refusalText(this.locale, error)
+      this.problem = refusalText(this.locale, error)
     }
   }
 }

@@ -1,8 +1,8 @@
 /* Goal: signing in leads back to a page of this server and to no other. */
 import { expect, it } from 'vitest'
-import { wayBack } from './back'
+import { returnAddress } from './back'
 
-const at = (back: string) => wayBack(`?back=${encodeURIComponent(back)}`, 'http://shop:8750')
+const at = (back: string) => returnAddress(`?back=${encodeURIComponent(back)}`, 'http://shop:8750')
 
 it.each([
   ['/rides/7?axis=distance', '/rides/7?axis=distance'],
@@ -19,6 +19,6 @@ it.each([
   '/.//evil.example',
 ])('does not go to %s', (back) => expect(at(back)).toBe('/'))
 
-it('goes to the first page where nothing is asked', () => {
-  expect(wayBack('', 'http://shop:8750')).toBe('/')
+it('goes to the first page without a return address', () => {
+  expect(returnAddress('', 'http://shop:8750')).toBe('/')
 })

@@ -3,12 +3,12 @@ import { placeOf } from '$shared/api/place'
 import { SIGN_IN } from '$shared/api/signed_in'
 
 /** base: where the server is, as `http://shop:8750/`. */
-export function wayBack(search: string, base: string): string {
+export function returnAddress(search: string, base: string): string {
   const root = new URL(base).pathname
-  const asked = new URLSearchParams(search).get('back') ?? root
+  const target = new URLSearchParams(search).get('back') ?? root
   let to: URL
   try {
-    to = new URL(asked, base)
+    to = new URL(target, base)
   } catch {
     return root
   }

@@ -6,9 +6,9 @@ import { mount } from 'svelte'
 const page = () => import('./SignInPage.svelte')
 const menu = () => import('./PersonMenu.svelte')
 
-/** The page in the whole window, or the menu at the end of the shell's top. */
+/** The page in the full window, or the menu at the end of the shell's top. */
 export async function show(alone: boolean, http: Http, locale: Locale): Promise<void> {
-  // Their words look at it when they come.
+  // Their catalogues check it when they load.
   document.documentElement.lang = locale.language === 'zh' ? 'zh-CN' : 'en'
   const { default: Shown } = await (alone ? page() : menu())
   const target = document.querySelector(alone ? '#app' : '.top')

@@ -10,7 +10,7 @@ export interface Reading {
   channels: Readonly<Record<string, number | null>>
   wear: WearCounters | null
   counters: Record<string, number | null>
-  /** Of the unit's rides; null where nobody can tell. */
+  /** Of the unit's rides; null where unknown. */
   drift: SensorDrift | null
   /** Of battery_voltage_v_min; null where it is not known. */
   battery_v_min: number | null
@@ -19,7 +19,7 @@ export interface Reading {
 
 export interface Check {
   word: Key
-  found: string
+  result: string
   allowed: string
   /** Null: not done, `found` says why. */
   passed: boolean | null
@@ -46,22 +46,22 @@ export function checksOf(
   const bounded = (word: Key, name: string, unit: string, most: number): Check => {
     const value = at(name)
     const allowed = say('up_to', { most: units.text(most, unit, 0) })
-    if (value === null) return { word, found: none(name), allowed, passed: null }
-    return { word, found: units.text(value, unit), allowed, passed: Math.abs(value) <= most }
+    if (value === null) return { word, result: none(name), allowed, passed: null }
+    return { word, result: units.text(value, unit), allowed, passed: Math.abs(value) <= most }
   }
   /** What the unit itself calls faulty has failed, whatever its reading. */
   const judged = (check: Check, name: string, ...parts: Part[]): Check => {
     if (!parts.some((part) => faultOf(part, faults_active))) return check
-    return { ...check, found: at(name) === null ? say('no_reading') : check.found, passed: false }
+    return { ...check, result: at(name) === null ? say('no_reading') : check.result, passed: false }
   }
 
   const zero = bounded('check_zero', 'rider_torque_nm', 'Nm', ZERO_NM_MAX)
   const moves = standstillOf(channels).stands === false
-  const resting = moves ? { ...zero, found: say('why_moving'), passed: null } : zero
+  const resting = moves ? { ...zero, result: say('why_moving'), passed: null } : zero
   const volts = at('battery_voltage_v')
   const battery: Check = {
     word: 'check_battery',
-    found: volts === null ? none('battery_voltage_v') : units.text(volts, 'V'),
+    result: volts === null ? none('battery_voltage_v') : units.text(volts, 'V'),
     allowed:
       battery_v_min === null ? '—' : say('at_least', { least: units.text(battery_v_min, 'V') }),
     passed: volts === null || battery_v_min === null ? null : volts >= battery_v_min,
@@ -78,7 +78,7 @@ export function checksOf(
   ]
 }
 
-/** What the rides tell of the zero, with the trend where there is one. */
+/** What the rides show of the zero, with the trend where there is one. */
 function drifted(
   drift: SensorDrift | null,
   say: Say,
@@ -86,40 +86,41 @@ function drifted(
   instant: (iso: string) => string,
 ): Check {
   const word = 'check_drift'
-  if (drift === null) return { word, found: say('why_unsent'), allowed: '—', passed: null }
+  if (drift === null) return { word, result: say('why_unsent'), allowed: '—', passed: null }
   const allowed = say('up_to', { most: units.text(drift.act_nm, 'Nm', 0) })
   const { latest, level, trend } = drift
   if (latest === null || level === null) {
-    return { word, found: say('drift_none'), allowed, passed: null }
+    return { word, result: say('drift_none'), allowed, passed: null }
   }
   const zero = units.text(latest.zero_nm, 'Nm', 2)
   const count = drift.rides.filter(({ zero_nm }) => zero_nm !== null).length
-  let found = say('drift_found', { zero, date: instant(latest.started_at), count })
+  let result = say('drift_result', { zero, date: instant(latest.started_at), count })
   if (trend) {
-    found = say('drift_rate', { found, rate: units.text(trend.per_month_nm.value, 'Nm', 2) })
+    result = say('drift_rate', { result, rate: units.text(trend.per_month_nm.value, 'Nm', 2) })
   }
-  if (level === 'watch') found = say('drift_watch', { found })
-  return { word, found, allowed, passed: level !== 'act' }
+  if (level === 'watch') result = say('drift_watch', { result })
+  return { word, result, allowed, passed: level !== 'act' }
 }
 
 function flash(wear: WearCounters | null, say: Say): Check {
   const word = 'check_flash'
-  const allowed = say('flash_whole')
-  if (wear === null) return { word, found: say('why_unsent'), allowed, passed: null }
+  const allowed = say('flash_intact')
+  if (wear === null) return { word, result: say('why_unsent'), allowed, passed: null }
   const bad = wear.config_slots.some(({ state }) => state === 'damaged')
   const places = say(
-    wear.runs_on_default ? 'flash_default' : bad ? 'flash_damaged' : 'flash_whole',
+    wear.runs_on_default ? 'flash_default' : bad ? 'flash_damaged' : 'flash_intact',
   )
   const erases = wear.config_slots.reduce((sum, slot) => sum + slot.erases, 0)
   const passed = !bad && !wear.runs_on_default
-  return { word, found: say('flash_worn', { places, erases }), allowed, passed }
+  return { word, result: say('flash_worn', { places, erases }), allowed, passed }
 }
 
 function line(counters: Reading['counters'], say: Say): Check {
   const health = healthOf(counters)
   const word = 'check_line'
   const allowed = say('none_lost')
-  if (!health) return { word, found: say('why_unsent'), allowed, passed: null }
+  if (!health) return { word, result: say('why_unsent'), allowed, passed: null }
   const lost = health.lost + health.dropped
-  return { word, found: say('lost_of', { lost, built: health.built }), allowed, passed: lost === 0 }
+  const result = say('lost_of', { lost, built: health.built })
+  return { word, result, allowed, passed: lost === 0 }
 }

@@ -4,7 +4,7 @@ import { RESTING_KMH, type FAULTS } from '$generated/registry'
 import en from '$messages/en/service.json'
 
 type FaultName = keyof typeof FAULTS
-type CauseWord<Key> = Key extends `${infer Cause}.look` ? Cause : never
+type CauseWord<Key> = Key extends `${infer Cause}.check` ? Cause : never
 export type Cause = CauseWord<keyof typeof en>
 
 /** A live value that bears on a cause. points: whether it speaks for the cause, null where it says
@@ -46,7 +46,7 @@ const voltage: Proof = {
   points: (value, least) => (value === null || least === null ? null : value < least),
 }
 
-/** By which live value a fault is still there; only of faults for which one value tells it. */
+/** By which live value a fault is still there; only of faults that one value shows. */
 export const CONDITIONS: Readonly<Partial<Record<FaultName, Proof>>> = {
   torque_sensor: sensor,
   torque_drift: zero,
@@ -58,7 +58,7 @@ export const CONDITIONS: Readonly<Partial<Record<FaultName, Proof>>> = {
   controller_temperature: above('controller_temperature_degc', 'degC', CONTROLLER_CLEARS_DEGC),
 }
 
-/** What to look at for each cause; null where no live value tells of it. */
+/** What to check for each cause; null where no live value shows it. */
 export const PROOFS: Readonly<Record<Cause, Proof | null>> = {
   spindle_plug: sensor,
   bridge_arm: sensor,
@@ -125,7 +125,7 @@ export function causesOf(fault: string): readonly Cause[] {
   return (CAUSES as Record<string, readonly Cause[]>)[fault] ?? []
 }
 
-/** The live value by which a fault is still there; null where no single one tells it. */
+/** The live value by which a fault is still there; null where no single one shows it. */
 export function conditionOf(fault: string): Proof | null {
   return (CONDITIONS as Record<string, Proof>)[fault] ?? null
 }

@@ -1,12 +1,12 @@
 // @vitest-environment happy-dom
-/* Goal: the sheet tells which faults there were before the work and what became of them. */
+/* Goal: the sheet shows which faults there were before the work and what became of them. */
 import type { Fault } from '$shared/api/types'
 import { expect, it } from 'vitest'
-import { keepJob, keptJob, seenFaults } from './job'
+import { storeJob, storedJob, seenFaults } from './job'
 
 const fault = (name: string, active: boolean, count = 1) => {
-  const told: Partial<Fault> = { name, active, count }
-  return told as Fault
+  const fields: Partial<Fault> = { name, active, count }
+  return fields as Fault
 }
 const [TEN, ELEVEN, NOON] = ['10:00', '11:00', '12:00']
 
@@ -36,10 +36,10 @@ it('has a fault that comes again as there, since it was first seen', () => {
 
 it('is kept for each unit, and takes what an older Spindle kept', () => {
   localStorage.setItem('spindle.job.one', JSON.stringify({ job: '0815', owner: 'owner 14' }))
-  const job = keptJob('one')
+  const job = storedJob('one')
   expect([job.values.job, job.values.owner, job.faults]).toEqual(['0815', 'owner 14', []])
 
-  keepJob('one', { ...job, faults: seenFaults([], [fault('torque_sensor', true)], TEN) })
-  expect(keptJob('one').faults[0]?.name).toBe('torque_sensor')
-  expect(keptJob('two').values.job).toBe('')
+  storeJob('one', { ...job, faults: seenFaults([], [fault('torque_sensor', true)], TEN) })
+  expect(storedJob('one').faults[0]?.name).toBe('torque_sensor')
+  expect(storedJob('two').values.job).toBe('')
 })

@@ -1,4 +1,4 @@
-// The job sheet of a unit, kept in this browser as it is typed, with the faults that were seen
+// The job sheet of a unit, stored in this browser as it is typed, with the faults that were seen
 // while it was open.
 import type { Fault } from '$shared/api/types'
 
@@ -28,43 +28,43 @@ export function newJob(): Job {
   return { values, faults: [], begun_at: new Date().toISOString() }
 }
 
-/** What was typed and seen for a unit; a new sheet where nothing was, or nothing can be kept. */
-export function keptJob(unit: string): Job {
+/** What was typed and seen for a unit; a new sheet where nothing was, or nothing can be stored. */
+export function storedJob(unit: string): Job {
   const empty = newJob()
   try {
-    const kept = JSON.parse(localStorage.getItem(keyOf(unit)) ?? '{}') as Partial<Job & JobValues>
+    const stored = JSON.parse(localStorage.getItem(keyOf(unit)) ?? '{}') as Partial<Job & JobValues>
     // An older sheet has its fields at the top.
-    const texts = kept.values ?? kept
+    const texts = stored.values ?? stored
     const values = JOB_FIELDS.map((field) => [field, String(texts[field] ?? '')] as const)
     return {
       values: Object.fromEntries(values) as JobValues,
-      faults: kept.faults ?? [],
-      begun_at: kept.begun_at ?? empty.begun_at,
+      faults: stored.faults ?? [],
+      begun_at: stored.begun_at ?? empty.begun_at,
     }
   } catch {
     return empty
   }
 }
 
-export function keepJob(unit: string, job: Job): void {
+export function storeJob(unit: string, job: Job): void {
   try {
     localStorage.setItem(keyOf(unit), JSON.stringify(job))
   } catch {
-    // Nothing can be kept here: it lasts as long as the page.
+    // Nothing can be stored here: it lasts as long as the page.
   }
 }
 
-/** The faults of a sheet after the unit has told those it has now. One that comes again is there
-    again; one that is only remembered by the unit is on the sheet too, as over. */
-export function seenFaults(before: SeenFault[], told: Fault[], now: string): SeenFault[] {
-  const found = before.map((seen) => {
-    const fault = told.find((one) => one.name === seen.name)
+/** The faults of a sheet after the unit has reported its present ones. One that comes again is
+    there again; one that is only remembered by the unit is on the sheet too, as over. */
+export function seenFaults(before: SeenFault[], current: Fault[], now: string): SeenFault[] {
+  const updated = before.map((seen) => {
+    const fault = current.find((one) => one.name === seen.name)
     if (fault?.active) return { ...seen, count: fault.count, over_at: null }
     return { ...seen, over_at: seen.over_at ?? now }
   })
-  const fresh = told.filter(({ name }) => !before.some((seen) => seen.name === name))
+  const fresh = current.filter(({ name }) => !before.some((seen) => seen.name === name))
   return [
-    ...found,
+    ...updated,
     ...fresh.map(({ name, count, active }) => ({
       name,
       count,

@@ -1,6 +1,6 @@
 // @vitest-environment happy-dom
 /* Goal: the sheet shows a ride only if it was made after the work, a calibration only as the
-   history has it, and of the sensor's zero what the rides told. */
+   history has it, and of the sensor's zero what the rides show. */
 import type { Revision, Ride, SensorDrift } from '$shared/api/types'
 import type { Units } from '$shared/units/units.svelte'
 import { expect, it } from 'vitest'
@@ -11,12 +11,12 @@ import en from '$messages/en/service.json'
 
 const at = (hour: number) => new Date(Date.UTC(2026, 10, 22, hour)).toISOString()
 const ride = (hour: number, state = 'done') => {
-  const told: Partial<Ride> = { id: hour, state: state as Ride['state'], started_at: at(hour) }
-  return told as Ride
+  const row: Partial<Ride> = { id: hour, state: state as Ride['state'], started_at: at(hour) }
+  return row as Ride
 }
 const revision = (hour: number, changed: Revision['changed'] = []) => {
-  const told: Partial<Revision> = { seq: hour, created_at: at(hour), changed }
-  return told as Revision
+  const row: Partial<Revision> = { seq: hour, created_at: at(hour), changed }
+  return row as Revision
 }
 const job = (...over: number[]): Job => ({
   ...newJob(),
@@ -28,7 +28,7 @@ it('takes a ride after the newest settings and the newest fault that was over', 
   expect(rideAfter(ride(14), job(), [revision(13), revision(9)])?.id).toBe(14)
   expect(rideAfter(ride(12), job(), [revision(13), revision(9)])).toBeNull()
   expect(rideAfter(ride(14), job(15, 10), [revision(13)])).toBeNull()
-  // Over when it was first seen: nobody knows since when.
+  // Over when it was first seen: its start is unknown.
   expect(rideAfter(ride(9), { ...job(8), begun_at: at(7) }, [])?.id).toBe(9)
 })
 
@@ -39,7 +39,7 @@ it('takes one after the sheet was begun where nothing was done, and none that go
   expect(rideAfter(null, job(), [])).toBeNull()
 })
 
-it('tells the newest change of a parameter, and none where there was none', () => {
+it('shows the newest change of a parameter, and none where there was none', () => {
   const name = 'sensor_offset_counts'
   const history = [
     revision(12, [{ name: 'pedal_stop_ms', old: 1, new: 2 }]),
@@ -51,7 +51,7 @@ it('tells the newest change of a parameter, and none where there was none', () =
   expect(lastChange(history, 'sensor_gain_nm_per_count')).toBeNull()
 })
 
-// The check of the zero: what the rides told, and a fail where the assist would stop.
+// The check of the zero: what the rides show, and a fail where the assist would stop.
 const units = {
   text: (value: number, unit: string, digits = 1) => `${value.toFixed(digits)} ${unit}`,
 } as unknown as Units
@@ -60,7 +60,7 @@ const say = (key: keyof typeof en, values: Record<string, unknown> = {}) =>
     (text, [name, value]) => text.replace(`{${name}}`, String(value)),
     en[key] as string,
   )
-const told = (level: SensorDrift['level'], zero_nm: number): SensorDrift =>
+const row = (level: SensorDrift['level'], zero_nm: number): SensorDrift =>
   ({
     act_nm: 3,
     level,
@@ -83,27 +83,27 @@ const checked = (drift: SensorDrift | null) => {
 }
 
 it('names the newest zero with its ride, and passes while the zero holds', () => {
-  expect(checked(told('ok', 0.42))).toMatchObject({
-    found: '0.42 Nm, Monday; of 2 rides',
+  expect(checked(row('ok', 0.42))).toMatchObject({
+    result: '0.42 Nm, Monday; of 2 rides',
     allowed: '≤ 3 Nm',
     passed: true,
   })
 })
 
-it('asks to watch a zero that has moved, and fails one at which the unit gives no assist', () => {
-  expect(checked(told('watch', 1.4))).toMatchObject({ passed: true })
-  expect(checked(told('watch', 1.4))?.found).toContain('watch it')
-  expect(checked(told('act', -3.2))).toMatchObject({ passed: false })
+it('warns of a zero that has moved, and fails one at which the unit gives no assist', () => {
+  expect(checked(row('watch', 1.4))).toMatchObject({ passed: true })
+  expect(checked(row('watch', 1.4))?.result).toContain('watch it')
+  expect(checked(row('act', -3.2))).toMatchObject({ passed: false })
 })
 
-it('tells the trend where the rides show one', () => {
+it('shows the trend where the rides have one', () => {
   const trend = { per_month_nm: { value: 0.2 } } as unknown as SensorDrift['trend']
 
-  expect(checked({ ...told('ok', 0.4), trend })?.found).toContain('0.20 Nm a month')
+  expect(checked({ ...row('ok', 0.4), trend })?.result).toContain('0.20 Nm a month')
 })
 
-it('is not done where no ride told the zero', () => {
-  expect(checked(told(null, 0))).toMatchObject({ found: en.drift_none, passed: null })
+it('is not done where no ride shows the zero', () => {
+  expect(checked(row(null, 0))).toMatchObject({ result: en.drift_none, passed: null })
   expect(checked(null)).toMatchObject({ passed: null })
 })
 
@@ -114,16 +114,16 @@ it('fails a sensor that the unit calls faulty, with a reading and without', () =
   const dead = { channels: { rider_torque_nm: null }, faults_active: ['torque_sensor'] }
   const stuck = { channels: { rider_torque_nm: 0 }, faults_active: ['torque_stuck'] }
 
-  expect(zeroCheck(dead)).toMatchObject({ found: en.no_reading, passed: false })
-  expect(zeroCheck(stuck)).toMatchObject({ found: '0.0 Nm', passed: false })
+  expect(zeroCheck(dead)).toMatchObject({ result: en.no_reading, passed: false })
+  expect(zeroCheck(stuck)).toMatchObject({ result: '0.0 Nm', passed: false })
   expect(zeroCheck({ channels: {}, faults_active: ['torque_link'] })?.passed).toBe(false)
 })
 
-it('tells a value that is missing now from one that the unit never sends', () => {
+it('distinguishes a value that is missing now from one that the unit never sends', () => {
   expect(zeroCheck({ channels: { rider_torque_nm: null } })).toMatchObject({
-    found: en.no_reading,
+    result: en.no_reading,
     passed: null,
   })
-  expect(zeroCheck({})).toMatchObject({ found: en.why_unsent, passed: null })
+  expect(zeroCheck({})).toMatchObject({ result: en.why_unsent, passed: null })
   expect(zeroCheck({ channels: { rider_torque_nm: 0.5 } })).toMatchObject({ passed: true })
 })

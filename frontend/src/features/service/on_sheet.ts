@@ -20,7 +20,7 @@ export function lastChange(revisions: readonly Revision[], name: string): LastCh
 /** When the work on a unit was last seen to be done: the newest settings, the newest fault that was
     over; without either when the sheet was begun. */
 export function workedAt(job: Job, revisions: readonly Revision[]): string {
-  // One that was over when it was first seen tells no time.
+  // One that was over when it was first seen has no time.
   const gone = job.faults.filter(({ seen_at, over_at }) => over_at !== seen_at)
   const over = gone.flatMap(({ over_at }) => over_at ?? [])
   const done = [...over, ...revisions.slice(0, 1).map(({ created_at }) => created_at)]

@@ -15,7 +15,7 @@ const PARAMETERS = [
   parameter('calibration_certificate', 'calibration', true),
 ]
 
-it('tells tuning from what was measured, and a calibration from its wheel', () => {
+it('separates tuning from what was measured, and a calibration from its wheel', () => {
   const all = PARAMETERS.map(({ name }) => ({ name, old: 1, new: 2 }))
 
   expect(restoredParts(all as Comparison['parameters'], PARAMETERS)).toEqual([

@@ -1,8 +1,8 @@
 // What of an older configuration can be restored, in parts that are ticked one by one.
 import type { Comparison, Parameter } from '$shared/api/types'
 
-/** A group of settings that differ; of_the_unit: measured on this bike, so that nobody restores it
-    without having asked for it. */
+/** A group of settings that differ; of_the_unit: measured on this bike, so that it is restored only
+    on request. */
 export interface RestoredPart {
   key: string
   group: string
@@ -10,7 +10,7 @@ export interface RestoredPart {
   names: string[]
 }
 
-/** The parts of what the unit has beside the older one, in the order of the parameters, without
+/** The parts that differ from the older configuration, in the order of the parameters, without
     what only the factory may change. The record of a calibration is one part with what it
     measured. */
 export function restoredParts(

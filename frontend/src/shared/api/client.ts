@@ -26,7 +26,7 @@ export type Http = Client<paths>
 
 const OF_A_CONNECTION = /\/api\/v1\/devices\/([^/]+)\//
 
-/** The key of the unit that the page shows on a connection; null while nobody knows it. */
+/** The key of the unit that the page shows on a connection; null while unknown. */
 export type KeyOf = (device_id: string) => string | null
 
 /** A client of the server this page came from, whose changes carry the author's name and which unit
@@ -61,15 +61,15 @@ interface Answer<T> {
 }
 
 /** The body of an answer; throws Refusal. */
-export async function body<T>(asked: Promise<Answer<T>>): Promise<T> {
-  return (await bodyAndTag(asked))[0]
+export async function body<T>(pending: Promise<Answer<T>>): Promise<T> {
+  return (await bodyAndTag(pending))[0]
 }
 
 /** The body and the ETag of an answer; throws Refusal. */
-export async function bodyAndTag<T>(asked: Promise<Answer<T>>): Promise<[T, string]> {
+export async function bodyAndTag<T>(pending: Promise<Answer<T>>): Promise<[T, string]> {
   let answer: Answer<T>
   try {
-    answer = await asked
+    answer = await pending
   } catch (error) {
     if (error instanceof DOMException && error.name === 'AbortError') throw error
     throw new Refusal(0, 'unreachable', String(error))

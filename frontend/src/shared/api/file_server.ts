@@ -1,6 +1,13 @@
 // What the server does with files that come in; sending them is `uploadFile`.
 import { body, type Http } from './client'
-import type { KnownTable, Ride, SaidOfTable, TableQuestion, Upload, UploadList } from './types'
+import type {
+  AnsweredTable,
+  Ride,
+  TableAnswerRequest,
+  TableQuestion,
+  Upload,
+  UploadList,
+} from './types'
 
 export class FileServer {
   constructor(private readonly http: Http) {}
@@ -24,29 +31,29 @@ export class FileServer {
     await body(this.http.DELETE('/api/v1/uploads/{upload_id}', this.at(id)))
   }
 
-  /** What must be said of a table before it is read. */
+  /** The questions about a table before it can be read. */
   tableQuestion(id: string): Promise<TableQuestion> {
     return body(this.http.GET('/api/v1/uploads/{upload_id}/mapping', this.at(id)))
   }
 
   /** Says it; what became of the file. */
-  sayOfTable(id: string, said: SaidOfTable): Promise<Upload> {
+  sayOfTable(id: string, answer: TableAnswerRequest): Promise<Upload> {
     return body(
-      this.http.PUT('/api/v1/uploads/{upload_id}/mapping', { ...this.at(id), body: said }),
+      this.http.PUT('/api/v1/uploads/{upload_id}/mapping', { ...this.at(id), body: answer }),
     )
   }
 
-  /** A simulated ride to look round with; made where it is not here yet. */
+  /** A simulated ride for a first look; made where it is not here yet. */
   sampleRide(): Promise<Ride> {
     return body(this.http.POST('/api/v1/rides/sample'))
   }
 
-  /** What was said of which tables. */
-  async knownTables(): Promise<KnownTable[]> {
+  /** The answers given about tables. */
+  async answeredTables(): Promise<AnsweredTable[]> {
     return (await body(this.http.GET('/api/v1/tables'))).items
   }
 
-  /** The next file with this header is asked about again. */
+  /** The next file with this header needs an answer again. */
   async forgetTable(header_sha256: string): Promise<void> {
     const params = { path: { header_sha256 } }
     await body(this.http.DELETE('/api/v1/tables/{header_sha256}', { params }))

@@ -1,4 +1,4 @@
-// What can be asked of two rides side by side. Comes with the page that asks it. Throws Refusal.
+// Requests about two rides side by side. Loaded with the page that uses them. Throws Refusal.
 import { body, type Http } from './client'
 import type {
   ComparedCrank,

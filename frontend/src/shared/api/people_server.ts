@@ -1,4 +1,4 @@
-// Who signs in, accounts and keys. Comes with the pages that ask for them. Throws Refusal.
+// Who signs in, accounts and keys. Loaded with the pages that use them. Throws Refusal.
 import type { components } from '$generated/api'
 import { body, type Http } from './client'
 

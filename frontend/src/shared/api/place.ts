@@ -1,5 +1,5 @@
-// Addresses are told from where the server is, which a proxy may have put below a path of its site:
-// the entry page's <base> says where. "rides/7" is a place; "." is the first page.
+// Addresses are relative to where the server is, which a proxy may have put below a path of its
+// site: the entry page's <base> says where. "rides/7" is a place; "." is the first page.
 
 /** The place of a path of the site: "/spindle/rides/7" is "rides/7" below "/spindle/". */
 export function placeOf(path: string, root = new URL(document.baseURI).pathname): string {

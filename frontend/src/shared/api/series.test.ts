@@ -56,7 +56,7 @@ it('refuses bytes that are something else', () => {
   expect(() => readSeries(new TextEncoder().encode('{"detail": 1}').buffer)).toThrow('not a series')
 })
 
-const told = {
+const json = {
   from_s: 0,
   to_s: 5,
   rows: 5,
@@ -71,18 +71,18 @@ const told = {
 }
 
 it('reads a series within another answer, missing as NaN', () => {
-  const [channel] = seriesOf(told).channels
+  const [channel] = seriesOf(json).channels
 
   expect([...(channel?.min ?? [])]).toEqual([1, 9, NaN, NaN, 4])
   expect(channel?.max).toBe(channel?.min)
 })
 
 it('keeps the extremes of every bin where bins are taken together', () => {
-  const coarse = coarser(seriesOf(told), 3)
+  const coarse = coarser(seriesOf(json), 3)
 
   expect([...coarse.t_first_s]).toEqual([0, 2, 4])
   expect([...coarse.t_last_s]).toEqual([1, 3, 4])
   expect([...(coarse.channels[0]?.min ?? [])]).toEqual([1, NaN, 4])
   expect([...(coarse.channels[0]?.max ?? [])]).toEqual([9, NaN, 4])
-  expect(coarser(seriesOf(told), 5).kind).toBe('rows')
+  expect(coarser(seriesOf(json), 5).kind).toBe('rows')
 })

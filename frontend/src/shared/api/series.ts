@@ -86,21 +86,21 @@ export function readSeries(bytes: ArrayBuffer): Series {
 }
 
 /** A series that came as JSON, within another answer. */
-export function seriesOf(told: components['schemas']['Series']): Series {
+export function seriesOf(json: components['schemas']['Series']): Series {
   const values = (numbers: (number | null)[]) => Float64Array.from(numbers, (n) => n ?? NaN)
   return {
-    from_s: told.from_s,
-    to_s: told.to_s,
-    rows: told.rows,
-    kind: told.kind,
-    axis: told.axis,
-    ...(told.x_first && { x_first: Float64Array.from(told.x_first) }),
-    ...(told.x_last && { x_last: Float64Array.from(told.x_last) }),
-    t_first_s: Float64Array.from(told.t_first_s),
-    t_last_s: Float64Array.from(told.t_last_s),
-    channels: told.channels.map(({ name, unit, min, max }) => {
+    from_s: json.from_s,
+    to_s: json.to_s,
+    rows: json.rows,
+    kind: json.kind,
+    axis: json.axis,
+    ...(json.x_first && { x_first: Float64Array.from(json.x_first) }),
+    ...(json.x_last && { x_last: Float64Array.from(json.x_last) }),
+    t_first_s: Float64Array.from(json.t_first_s),
+    t_last_s: Float64Array.from(json.t_last_s),
+    channels: json.channels.map(({ name, unit, min, max }) => {
       const least = values(min)
-      return { name, unit, min: least, max: told.kind === 'rows' ? least : values(max) }
+      return { name, unit, min: least, max: json.kind === 'rows' ? least : values(max) }
     }),
   }
 }
@@ -115,8 +115,8 @@ export function coarser(series: Series, bins: number): Series {
   )
   const extreme = (values: Float64Array, of: (...values: number[]) => number) =>
     Float64Array.from(groups, ([from, to]) => {
-      const there = values.subarray(from, to).filter((value) => !Number.isNaN(value))
-      return there.length > 0 ? of(...there) : NaN
+      const valid = values.subarray(from, to).filter((value) => !Number.isNaN(value))
+      return valid.length > 0 ? of(...valid) : NaN
     })
   return {
     ...series,

@@ -1,4 +1,4 @@
-// What can be asked of Spindle's server, one function a verb. Throws Refusal.
+// The requests to Spindle's server, one function each. Throws Refusal.
 import { body, bodyAndTag, type Http } from './client'
 import { FileServer } from './file_server'
 import { readSeries, type Series } from './series'
@@ -82,12 +82,12 @@ export class Server {
     return { params: { path: { ride_id } } }
   }
 
-  /** Whether everything that is to be kept is kept. */
+  /** Whether everything is being stored. */
   health(): Promise<Health> {
     return body(this.http.GET('/api/v1/health'))
   }
 
-  /** Where everything is kept, and how large it is. */
+  /** Where all data is stored, and how large it is. */
   store(signal: AbortSignal): Promise<StorePlace> {
     return body(this.http.GET('/api/v1/store', { signal }))
   }
@@ -125,7 +125,7 @@ export class Server {
 
   /** Writes parameters; `tag` is the ETag of the configuration the change was made for. confirm_s:
       0 for good, else the unit returns after so many seconds unless it is confirmed. token: the
-      maker's, where a refusal asked for one. read_from: the key of the unit whose values these are.
+      maker's, where a refusal requires it. read_from: the key of the unit whose values these are.
       */
   writeConfig(
     id: string,
@@ -144,7 +144,7 @@ export class Server {
     )
   }
 
-  /** Keeps what is on trial. */
+  /** Confirms what is on trial. */
   confirmConfig(id: string): Promise<ConfigChange> {
     return body(this.http.POST('/api/v1/devices/{device_id}/config/confirm', this.unit(id)))
   }
@@ -171,7 +171,7 @@ export class Server {
     ).items
   }
 
-  /** The unit's rides since a configuration of its history, beside those before it. */
+  /** The unit's rides since a configuration of its history, against those before it. */
   sinceRevision(id: string, seq: number, signal: AbortSignal): Promise<SinceChange> {
     const params = { path: { device_id: id, seq } }
     const path = '/api/v1/devices/{device_id}/config/revisions/{seq}/since'
@@ -288,7 +288,7 @@ export class Server {
     return body(this.http.POST('/api/v1/certificates', { body: question, signal }))
   }
 
-  /** Begins to look for settings for a wish; a job to be watched. */
+  /** Starts a search of settings for a wish; a job to be watched. */
   propose(question: ProposalRequest): Promise<Proposal> {
     return body(this.http.POST('/api/v1/proposals', { body: question }))
   }
@@ -347,7 +347,7 @@ export class Server {
     return body(this.http.DELETE('/api/v1/library/{entry_id}', { params }))
   }
 
-  /** The table in the text of a .fis file; nothing is kept. */
+  /** The table in the text of a .fis file; nothing is stored. */
   readFis(text: string, name: string): Promise<ReadFis> {
     return body(this.http.POST('/api/v1/library/fis', { body: { text, name } }))
   }
@@ -439,7 +439,7 @@ export class Server {
     return body(this.http.GET('/api/v1/rides/{ride_id}/energy', { ...this.rideAt(id), signal }))
   }
 
-  /** Zones, bands and best mean powers; zones only of what the rider told. */
+  /** Zones, bands and best mean powers; zones only of limits that the rider set. */
   effort(
     id: number,
     rider: { threshold_power_w: number | null; heart_rate_bpm_max: number | null },
@@ -459,7 +459,7 @@ export class Server {
     return body(this.http.GET('/api/v1/rides/{ride_id}/diagnosis', { ...this.rideAt(id), signal }))
   }
 
-  /** Where limits held the motor back on a ride, in order of time. */
+  /** Where limits limited the motor on a ride, in order of time. */
   async cuts(id: number): Promise<Cut[]> {
     return (await body(this.http.GET('/api/v1/rides/{ride_id}/cuts', this.rideAt(id)))).items
   }
@@ -489,6 +489,6 @@ export class Server {
   }
 }
 
-function side(told: ComparedSide) {
-  return { table: 'first' as const, ...told }
+function side(side_of_pair: ComparedSide) {
+  return { table: 'first' as const, ...side_of_pair }
 }

@@ -1,5 +1,5 @@
-// Whether somebody signed in with this browser, without asking: a server without accounts is asked
-// nothing. The cookie holds no secret; the one that does is out of reach of scripts.
+// Whether somebody signed in with this browser, without a request: a server without accounts is
+// sent none. The cookie holds no secret; the one that does is out of reach of scripts.
 export const isSignedIn = (): boolean => document.cookie.includes('spindle_signed_in=')
 
 export const SIGN_IN = 'sign-in'

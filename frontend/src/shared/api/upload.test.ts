@@ -1,6 +1,6 @@
 // @vitest-environment happy-dom
-/* Goal: a file arrives whole although the network breaks. The server here counts bytes and fails on
-   request; by tus 1.0 only the server knows after a failure how far it got. */
+/* Goal: a file arrives complete although the network breaks. The server here counts bytes and fails
+   on request; by tus 1.0 only the server knows after a failure how far it got. */
 import type { HttpRequest, HttpStack } from 'tus-js-client'
 import { afterEach, expect, it } from 'vitest'
 import { Refusal } from './client'
@@ -10,7 +10,7 @@ class TusServer implements HttpStack {
   received = new Uint8Array()
   polls = 0
   hash: string | null = null
-  known: object[] = []
+  existing: object[] = []
   begun: string[] = []
   readonly steps: UploadSteps
 
@@ -55,7 +55,7 @@ class TusServer implements HttpStack {
       'upload-offset': String(this.received.length),
       'upload-length': String(bytes.length),
     }
-    if (url.includes('sha256=')) return Response.json({ items: this.known, next: null })
+    if (url.includes('sha256=')) return Response.json({ items: this.existing, next: null })
     if (init.method === 'POST') {
       this.begun.push(new Headers(init.headers).get('upload-metadata') ?? '')
       return new Response(null, { status: 201, headers: { location: '/api/v1/uploads/1' } })
@@ -107,7 +107,7 @@ it('sends nothing of what is here already, and says what it will hash to of the 
   const server = new TusServer([])
   server.hash = 'ab'.repeat(32)
   await uploadFile(file, () => undefined, server.steps)
-  server.known = [{ ride_ids: [], parts: null }, { ride_ids: [7], parts: null }]
+  server.existing = [{ ride_ids: [], parts: null }, { ride_ids: [7], parts: null }]
 
   const upload = await uploadFile(file, () => undefined, server.steps)
 
@@ -128,7 +128,7 @@ it.each([
   ['a network that drops out', ['network' as const]],
   ['a server that is busy', [503 as const, 503 as const]],
   ['an answer that is lost after its bytes arrived', ['lost_answer' as const]],
-])('arrives whole despite %s', async (_, faults) => {
+])('arrives complete despite %s', async (_, faults) => {
   const server = new TusServer([...faults])
   const shares: number[] = []
 

@@ -17,7 +17,7 @@ export interface UploadSteps {
   http?: HttpStack
 }
 
-/** Whoever sends does not want to any more. */
+/** The sender stopped the upload. */
 export class Stopped extends Error {}
 
 const browser: UploadSteps = {
@@ -40,8 +40,8 @@ export async function uploadFile(
   gate: () => Promise<void> = () => Promise.resolve(),
 ): Promise<Upload> {
   const hash = await steps.sha256(file)
-  const known = hash && (await knownRides(hash, steps))
-  if (known) return known
+  const existing = hash && (await existingRides(hash, steps))
+  if (existing) return existing
   const sending = await send(file, hash, progress, steps, gate)
   const upload = await verdict(new URL(sending.url ?? '', document.baseURI).pathname, steps)
   for (const { urlStorageKey } of await sending.findPreviousUploads())
@@ -50,8 +50,8 @@ export async function uploadFile(
 }
 
 // What the same bytes became before, with no word of that being an upload of its own.
-async function knownRides(hash: string, steps: UploadSteps): Promise<Upload | null> {
-  const response = await ask(steps, `api/v1/uploads?sha256=${hash}`, {})
+async function existingRides(hash: string, steps: UploadSteps): Promise<Upload | null> {
+  const response = await checkedFetch(steps, `api/v1/uploads?sha256=${hash}`, {})
   const { items } = (await response.json()) as UploadList
   const first = items.find((upload) => upload.ride_ids.length > 0 && !upload.parts)
   if (!first) return null
@@ -121,14 +121,18 @@ function parsed(text: string): unknown {
 
 async function verdict(address: string, steps: UploadSteps): Promise<Upload> {
   for (let poll = 0; poll < VERDICT_POLLS_MAX; poll++) {
-    const upload = (await (await ask(steps, address, {})).json()) as Upload
+    const upload = (await (await checkedFetch(steps, address, {})).json()) as Upload
     if (upload.state !== 'receiving' && upload.state !== 'queued') return upload
     await steps.wait(Math.min(1000, 100 * (poll + 1)))
   }
   throw new Refusal(0, 'unreachable', 'The server is still reading the file.')
 }
 
-async function ask(steps: UploadSteps, path: string, init: RequestInit): Promise<Response> {
+async function checkedFetch(
+  steps: UploadSteps,
+  path: string,
+  init: RequestInit,
+): Promise<Response> {
   let response: Response
   try {
     response = await steps.fetch(path, init)
@@ -139,7 +143,8 @@ async function ask(steps: UploadSteps, path: string, init: RequestInit): Promise
   throw refusal(response.status, await response.json().catch(() => null))
 }
 
-// Only pages of this machine or over TLS may hash; a large file is told by name, size and time.
+// Only pages of this machine or over TLS may hash; a large file is identified by name, size and
+// time.
 async function sha256(file: File): Promise<string | null> {
   if (!globalThis.crypto?.subtle || file.size > HASHED_BYTES_MAX) return null
   const digest = await crypto.subtle.digest('SHA-256', await file.arrayBuffer())

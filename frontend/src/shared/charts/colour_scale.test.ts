@@ -9,7 +9,7 @@ it('is Viridis: the quarters that matplotlib prints for it', () => {
   const published = ['440154', '3b528b', '21918c', '5ec962', 'fde725']
   const parts = (colour: string) => [0, 2, 4].map((at) => parseInt(colour.slice(at, at + 2), 16))
 
-  // Between the colours kept it is a straight line, which the true scale is not quite.
+  // Between the stored colours it is a straight line, which the true scale is not quite.
   for (const [i, colour] of hex.entries()) {
     const off = parts(colour).map((part, k) => Math.abs(part - (parts(published[i] ?? '')[k] ?? 0)))
     expect(Math.max(...off)).toBeLessThanOrEqual(4)

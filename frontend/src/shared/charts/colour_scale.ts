@@ -5,7 +5,7 @@ export type ColourScale = readonly Colour[]
 const scale = (...colours: string[]): ColourScale =>
   colours.map((hex) => [0, 2, 4].map((at) => parseInt(hex.slice(at, at + 2), 16)) as never)
 
-/** Viridis of matplotlib: from dark to bright, whichever colours the eye tells apart. */
+/** Viridis of matplotlib: from dark to bright, also for colour-blind readers. */
 export const VIRIDIS = scale(
   ...['440154', '482475', '414487', '355f8d', '2a788e', '21918c'],
   ...['22a884', '44bf70', '7ad151', 'bddf26', 'fde725'],

@@ -13,7 +13,7 @@ export function pixelOf({ low, high, from_px, to_px }: PlotAxis, value: number):
   return from_px + share * (to_px - from_px)
 }
 
-/** The nearest of increasing values to a pixel; null beside the axis. */
+/** The nearest of increasing values to a pixel; null outside the axis. */
 export function nearestTo(values: readonly number[], axis: PlotAxis, px: number): number | null {
   const share = (px - axis.from_px) / (axis.to_px - axis.from_px)
   if (!(share >= 0 && share <= 1)) return null

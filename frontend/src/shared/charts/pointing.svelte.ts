@@ -5,7 +5,7 @@ export interface Pixel {
 }
 
 export class Pointing {
-  /** From the drawing's upper left corner; null while nobody points. */
+  /** From the drawing's upper left corner; null while there is no pointer. */
   at = $state.raw<Pixel | null>(null)
 
   /** A move or a press on the drawing that handles the event. */

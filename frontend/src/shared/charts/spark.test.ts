@@ -1,4 +1,4 @@
-/* Goal: a small line runs from its first to its last second, breaks where nobody knows, and puts
+/* Goal: a small line runs from its first to its last second, breaks where unknown, and puts
    nothing in place of what is missing. */
 import { expect, it } from 'vitest'
 import { sparkPath, topOf } from './spark'

@@ -1,4 +1,4 @@
-// A small line without axes: where it runs, and where it breaks because nobody knows.
+// A small line without axes: where it runs, and where it breaks because the value is unknown.
 
 export const [SPARK_WIDTH, SPARK_HEIGHT] = [200, 40]
 
@@ -30,6 +30,6 @@ export function sparkPath(
 
 /** The largest of the values; null where there is none. */
 export function topOf(...lines: (readonly (number | null)[])[]): number | null {
-  const known = lines.flat().filter((value) => value !== null && Number.isFinite(value))
-  return known.length > 0 ? Math.max(...(known as number[])) : null
+  const finite = lines.flat().filter((value) => value !== null && Number.isFinite(value))
+  return finite.length > 0 ? Math.max(...(finite as number[])) : null
 }

@@ -3,11 +3,11 @@ import { Refusal } from '../api/client'
 import type { Server } from '../api/server'
 import type { ConfigChange, Device, Parameter, ParameterValue } from '../api/types'
 import { differing, rebased, same } from './elements'
-import { keep, type Kept } from './kept_drafts'
+import { storeDraft, type StoredDraft } from './stored_drafts'
 import { isFactorys } from './ratchet'
 
-/** A unit and where it is; its key is null until it said who it is. */
-export type UnitThere = Pick<Device, 'id' | 'url' | 'unit_key'>
+/** A unit and where it is; its key is null until it is identified. */
+export type UnitRef = Pick<Device, 'id' | 'url' | 'unit_key'>
 
 export type Edits = Readonly<Record<string, ParameterValue>>
 
@@ -26,21 +26,21 @@ export interface ConfigStamp {
 const HISTORY_MAX = 200
 
 /** The draft of one page for one unit; it outlives the page, so that leaving loses nothing. An edit
-    is of an element: what others change meanwhile beside it stays. */
+    is of an element: what others change elsewhere meanwhile stays. */
 export class ConfigDraft {
   parameters = $state.raw<Parameter[]>([])
   tag = $state('')
   generation = $state(0)
   loaded = $state(false)
-  /** Null where the next look at the unit must read everything. */
+  /** Null where the next read of the unit must be complete. */
   private crc32: number | null = null
   private writing = false
   private baseline = $state.raw<Edits>({})
   private edits = $state.raw<Edits>({})
   /** What the unit had when the first of the edits was made; empty while there is none. */
   private begun = $state.raw<Edits>({})
-  /** When edits of an earlier visit were kept; null for those of this one. */
-  kept_at_ms = $state<number | null>(null)
+  /** When edits of an earlier visit were stored; null for those of this one. */
+  stored_at_ms = $state<number | null>(null)
   /** Why, as it is typed for the revision. */
   private why = $state('')
   private past = $state.raw<Edits[]>([])
@@ -49,28 +49,28 @@ export class ConfigDraft {
 
   /** The connection that the unit was last on. */
   device_id: string
-  /** Null until the unit said who it is. */
+  /** Null until the unit is identified. */
   unit_key: string | null
 
   constructor(
-    there: Pick<UnitThere, 'id' | 'unit_key'>,
+    unit: Pick<UnitRef, 'id' | 'unit_key'>,
     private readonly server: Server,
-    /** Under which it is kept in this browser; empty for nowhere. */
+    /** Under which it is stored in this browser; empty for nowhere. */
     private key = '',
-    kept: Kept | null = null,
+    stored: StoredDraft | null = null,
   ) {
-    this.device_id = there.id
-    this.unit_key = there.unit_key
-    if (!kept) return
-    this.baseline = this.begun = kept.base
-    this.edits = kept.edits
-    this.why = kept.reason
-    this.kept_at_ms = kept.at_ms
+    this.device_id = unit.id
+    this.unit_key = unit.unit_key
+    if (!stored) return
+    this.baseline = this.begun = stored.base
+    this.edits = stored.edits
+    this.why = stored.reason
+    this.stored_at_ms = stored.at_ms
   }
 
   /** The unit was given a name: it is the same one, and its tags are new. */
   rename(unit_key: string, key: string): void {
-    keep(this.key, null)
+    storeDraft(this.key, null)
     this.unit_key = unit_key
     this.key = key
     this.crc32 = null
@@ -93,20 +93,20 @@ export class ConfigDraft {
       that nothing can be written on it. */
   async recall(): Promise<void> {
     if (this.loaded) return
-    const known = await this.server.lastKnown(this.device_id)
+    const last = await this.server.lastKnown(this.device_id)
     if (this.loaded) return
     const values = Object.fromEntries(
-      known.parameters.flatMap(({ name, value }) => (value === null ? [] : [[name, value]])),
+      last.parameters.flatMap(({ name, value }) => (value === null ? [] : [[name, value]])),
     ) as Edits
-    const { unit_key, generation, crc32 } = known
+    const { unit_key, generation, crc32 } = last
     this.take({ unit_key, generation: generation ?? 0, crc32: crc32 ?? 0 }, values, '')
-    this.parameters = known.parameters
+    this.parameters = last.parameters
     this.crc32 = null
     this.loaded = true
   }
 
-  /** Reads the configuration unless it is the one the draft has, or a write is about to say which
-      it is. stamp: of what the unit has; null where it does not tell. */
+  /** Reads the configuration unless it is the one the draft has, or a write is about to return it.
+      stamp: of what the unit has; null where it reports none. */
   async follow(stamp: ConfigStamp | null): Promise<void> {
     const same_one = stamp?.generation === this.generation && stamp.crc32 === this.crc32
     if (this.writing || (this.loaded && same_one)) return
@@ -118,8 +118,8 @@ export class ConfigDraft {
   private take(stamp: ConfigStamp & { unit_key: string }, parameters: Edits, tag: string): void {
     this.unit_key ??= stamp.unit_key
     if (stamp.unit_key !== this.unit_key) {
-      const told = `This is for the unit ${this.unit_key}; another is there.`
-      throw new Refusal(412, 'other_unit', told)
+      const message = `This is for the unit ${this.unit_key}; another is there.`
+      throw new Refusal(412, 'other_unit', message)
     }
     const was = this.baseline
     this.baseline = parameters
@@ -150,8 +150,8 @@ export class ConfigDraft {
     return this.baseline[name]
   }
 
-  /** What it had when the first of the edits was made: where that is something else, somebody
-      changed it meanwhile. */
+  /** What it had when the first of the edits was made: where that is something else, it was
+      changed elsewhere meanwhile. */
   before(name: string): ParameterValue | undefined {
     return this.begun[name] ?? this.baseline[name]
   }
@@ -169,7 +169,7 @@ export class ConfigDraft {
   }
   set reason(text: string) {
     this.why = text
-    this.keep()
+    this.store()
   }
 
   /** What it would have: the edit, else what it has. */
@@ -177,7 +177,7 @@ export class ConfigDraft {
     return this.edits[name] ?? this.baseline[name]
   }
 
-  /** The whole configuration by name, as the unit has it. */
+  /** The complete configuration by name, as the unit has it. */
   get bases(): Edits {
     return this.baseline
   }
@@ -239,7 +239,7 @@ export class ConfigDraft {
   }
 
   /** Writes the edits in one transaction and reads back what the unit has. confirm_s: 0 for good,
-      else for so many seconds on trial. token: the maker's, if a refusal asked for one. Throws
+      else for so many seconds on trial. token: the maker's, if a refusal requires it. Throws
       Refusal. */
   async write(reason: string, confirm_s = 0, token: string | null = null): Promise<ConfigChange> {
     const parameters = Object.fromEntries(this.changes.map((c) => [c.parameter.name, c.value]))
@@ -253,8 +253,8 @@ export class ConfigDraft {
     return result
   }
 
-  /** Writes the elements a change replaced, whatever somebody else may have made of them since;
-      what they changed beside them stays. Throws Refusal. */
+  /** Writes the elements a change replaced, whatever others changed in them since; their other
+      changes stay. Throws Refusal. */
   async takeBack(change: ConfigChange, reason: string): Promise<ConfigChange> {
     const old = () =>
       Object.fromEntries(
@@ -289,13 +289,13 @@ export class ConfigDraft {
         this.unit_key,
       )
       this.take(result, result.parameters, tag)
-      // What was written from here nobody else has changed.
+      // What was written from here is no concurrent change.
       if (Object.keys(this.begun).length > 0) {
         const own = Object.keys(parameters).map((name) => [name, this.baseline[name]] as const)
         this.begun = { ...this.begun, ...(Object.fromEntries(own) as Edits) }
       }
       // The factory's values move the bounds of others. The change is in the unit, whatever becomes
-      // of this look at it.
+      // of this read.
       const moved = this.parameters.some((row) => row.name in parameters && isFactorys(row))
       if (moved) await this.load().catch(() => (this.crc32 = null))
       return result
@@ -317,16 +317,16 @@ export class ConfigDraft {
     const none = Object.keys(edits).length === 0
     if (none) this.begun = {}
     else if (Object.keys(this.begun).length === 0) this.begun = this.baseline
-    if (none) this.kept_at_ms = null
+    if (none) this.stored_at_ms = null
     this.edits = edits
-    this.keep()
+    this.store()
   }
 
-  private keep(): void {
+  private store(): void {
     if (!this.key) return
     const { edits, begun: base, why: reason } = this
-    const at_ms = this.kept_at_ms ?? Date.now()
-    keep(this.key, this.count > 0 ? { edits, base, reason, at_ms } : null)
+    const at_ms = this.stored_at_ms ?? Date.now()
+    storeDraft(this.key, this.count > 0 ? { edits, base, reason, at_ms } : null)
   }
 
   private without(name: string, value: ParameterValue | undefined): Edits {

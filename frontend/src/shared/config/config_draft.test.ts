@@ -1,10 +1,10 @@
-/* Goal: edits live in the draft until they are written, can be undone, and survive a change of the
-   unit by somebody else. */
+/* Goal: edits live in the draft until they are written, can be undone, and survive a concurrent
+   change of the unit. */
 import { afterEach, describe, expect, it, vi } from 'vitest'
 import { Refusal } from '../api/client'
 import type { Server } from '../api/server'
 import type { Parameter, ParameterValue } from '../api/types'
-import { ConfigDraft, type UnitThere } from './config_draft.svelte'
+import { ConfigDraft, type UnitRef } from './config_draft.svelte'
 import { Drafts } from './drafts'
 
 const parameter = (name: string): Parameter => ({
@@ -26,8 +26,8 @@ const parameter = (name: string): Parameter => ({
   description: '',
 })
 
-const A: UnitThere = { id: 'cable', url: 'socket://cable:1', unit_key: 'ebl:11' }
-const B: UnitThere = { ...A, unit_key: 'ebl:22' }
+const A: UnitRef = { id: 'cable', url: 'socket://cable:1', unit_key: 'ebl:11' }
+const B: UnitRef = { ...A, unit_key: 'ebl:22' }
 
 /** A server with one unit at a time, whose configuration can be changed behind the draft's back. */
 class FakeServer {
@@ -102,7 +102,7 @@ describe('a draft', () => {
     expect(draft.changes).toEqual([])
   })
 
-  it('undoes a whole drag at once, and redoes it', async () => {
+  it('undoes a complete drag at once, and redoes it', async () => {
     const { draft } = await loadedDraft()
     for (const value of [24, 23, 22]) draft.set('assist_cutoff_kmh', value, 'drag')
 
@@ -112,7 +112,7 @@ describe('a draft', () => {
     expect(draft.value('assist_cutoff_kmh')).toBe(22)
   })
 
-  it('keeps its edits when somebody else changes the unit', async () => {
+  it('keeps its edits when the unit is changed elsewhere', async () => {
     const { server, draft } = await loadedDraft()
     draft.set('assist_cutoff_kmh', 20)
 
@@ -134,7 +134,7 @@ describe('a draft', () => {
     expect(server.values['assist_cutoff_kmh']).toBe(25)
   })
 
-  it('takes a change back over what somebody else has written since', async () => {
+  it('takes a change back over what was written elsewhere since', async () => {
     const { server, draft } = await loadedDraft()
     draft.set('assist_cutoff_kmh', 20)
     const change = await draft.write('')
@@ -154,12 +154,12 @@ describe('a draft', () => {
     expect(server.reads).toBe(1)
     server.generation = 2
     await draft.follow({ generation: 2, crc32: 1002 })
-    await draft.follow(null) // a unit that does not tell which one it has
+    await draft.follow(null) // a unit that does not report which one it has
 
     expect(server.reads).toBe(3)
   })
 
-  it('does not read what a write is about to tell', async () => {
+  it('does not read what a write is about to return', async () => {
     const { server, draft } = await loadedDraft()
     draft.set('assist_cutoff_kmh', 20)
 
@@ -192,7 +192,7 @@ describe('a draft', () => {
     expect(draft.changes.map((change) => change.parameter.name)).toEqual(['fixed_taper_end_kmh'])
   })
 
-  it('has what the unit answered, without asking again', async () => {
+  it('has what the unit answered, without another read', async () => {
     const { server, draft } = await loadedDraft()
     draft.set('assist_cutoff_kmh', 20)
     server.values['fixed_taper_end_kmh'] = 23.5 // as the unit rounded it
@@ -214,7 +214,7 @@ describe('a draft', () => {
     expect(server.reads).toBe(3)
   })
 
-  it('has written, even when the unit falls silent before it is looked at again', async () => {
+  it('has written, even when the unit falls silent before it is read again', async () => {
     const { server, draft } = await loadedDraft()
     server.values['gain_factory'] = 1
     await draft.load()
@@ -369,7 +369,7 @@ describe('an edit of a table', () => {
     expect([draft.count, draft.meanwhile]).toEqual([0, 0])
   })
 
-  it('stays whole where the unit has a table of another shape now', async () => {
+  it('stays complete where the unit has a table of another shape now', async () => {
     const { server, draft } = await opened()
     draft.set(RULES, table([0, 0, 'PB']))
     server.values[RULES] = [['ZO']]
@@ -381,16 +381,16 @@ describe('an edit of a table', () => {
   })
 })
 
-/** What a browser keeps under names. */
+/** What a browser stores under names. */
 const storage = (): Storage => {
-  const kept = new Map<string, string>()
-  const told = {
-    getItem: (name: string) => kept.get(name) ?? null,
-    setItem: (name: string, value: string) => kept.set(name, value),
-    removeItem: (name: string) => kept.delete(name),
+  const entries = new Map<string, string>()
+  const methods = {
+    getItem: (name: string) => entries.get(name) ?? null,
+    setItem: (name: string, value: string) => entries.set(name, value),
+    removeItem: (name: string) => entries.delete(name),
   }
-  return new Proxy(told as unknown as Storage, {
-    ownKeys: () => [...kept.keys()],
+  return new Proxy(methods as unknown as Storage, {
+    ownKeys: () => [...entries.keys()],
     getOwnPropertyDescriptor: () => ({ enumerable: true, configurable: true }),
   })
 }
@@ -406,7 +406,7 @@ describe('a draft that is not written yet', () => {
   }
   const visit = (server: FakeServer) => new Drafts(server as unknown as Server)
 
-  it('is there again after a reload, with its reason, on what the unit has by then', async () => {
+  it('is restored after a reload, with its reason, on what the unit has by then', async () => {
     browser()
     const server = new FakeServer()
     server.values[RULES] = table()
@@ -424,7 +424,7 @@ describe('a draft that is not written yet', () => {
 
     expect(again.value(RULES)).toEqual(table([0, 0, 'PB'], [4, 4, 'NS']))
     expect([again.reason, again.count, again.meanwhile]).toEqual(['quiet street', 1, 1])
-    expect(again.kept_at_ms).not.toBeNull()
+    expect(again.stored_at_ms).not.toBeNull()
   })
 
   it.each(['written', 'discarded', 'set back'])('is kept no longer once it is %s', async (how) => {

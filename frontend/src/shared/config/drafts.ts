@@ -1,29 +1,29 @@
 // Drafts by unit and page, made once by app/main.ts and handed down through Svelte's context.
 import { createContext } from 'svelte'
 import type { Server } from '../api/server'
-import { ConfigDraft, type UnitThere } from './config_draft.svelte'
-import { allKept } from './kept_drafts'
+import { ConfigDraft, type UnitRef } from './config_draft.svelte'
+import { storedDrafts } from './stored_drafts'
 
 /** Each page edits and writes its own draft; it belongs to the unit and not to its connection, and
-    this browser keeps it until it is written or discarded. */
+    this browser stores it until it is written or discarded. */
 export class Drafts {
   private readonly byKey = new Map<string, ConfigDraft>()
 
   constructor(private readonly server: Server) {
-    for (const [key, kept] of allKept()) {
-      const there = { id: '', unit_key: key.split('\n')[0] ?? '' }
-      this.byKey.set(key, new ConfigDraft(there, server, key, kept))
+    for (const [key, stored] of storedDrafts()) {
+      const unit = { id: '', unit_key: key.split('\n')[0] ?? '' }
+      this.byKey.set(key, new ConfigDraft(unit, server, key, stored))
     }
   }
 
-  of(there: UnitThere, page: string): ConfigDraft {
-    const key = keyOf(there.unit_key ?? there.id, page)
+  of(unit: UnitRef, page: string): ConfigDraft {
+    const key = keyOf(unit.unit_key ?? unit.id, page)
     const draft =
       this.byKey.get(key) ??
-      this.beforeItsName(there, page) ??
-      new ConfigDraft(there, this.server, there.unit_key ? key : '')
+      this.beforeItsName(unit, page) ??
+      new ConfigDraft(unit, this.server, unit.unit_key ? key : '')
     this.byKey.set(key, draft)
-    draft.device_id = there.id
+    draft.device_id = unit.id
     return draft
   }
 
@@ -33,8 +33,8 @@ export class Drafts {
     return own.reduce((sum, draft) => sum + draft.count, 0)
   }
 
-  /** The draft of a unit without a serial number from before somebody gave it a name. */
-  private beforeItsName({ unit_key, url }: UnitThere, page: string): ConfigDraft | null {
+  /** The draft of a unit without a serial number from before it got a name. */
+  private beforeItsName({ unit_key, url }: UnitRef, page: string): ConfigDraft | null {
     const [family, name] = unit_key?.split(':name:') ?? []
     if (!unit_key || name === undefined) return null
     const key = keyOf(`${family}:url:${url}`, page)

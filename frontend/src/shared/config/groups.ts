@@ -1,4 +1,4 @@
-// Which groups of parameters stand as plain forms beside tables and modes, in which order.
+// Which groups of parameters are plain forms next to tables and modes, in which order.
 import type { Device, Parameter } from '../api/types'
 import { can, hasPage } from '../device/capabilities'
 
@@ -12,8 +12,8 @@ export function groupsOf(parameters: readonly Parameter[], device: Device | null
     ...(can(device, 'fuzzy_table') ? OF_TABLES : []),
     ...(hasPage(device, 'sensor') ? ['sensor', 'calibration'] : []),
   ]
-  const found = [...new Set(parameters.map((parameter) => parameter.group))]
-  const here = found.filter((group) => !elsewhere.includes(group))
-  const known = FIRST.filter((group) => here.includes(group))
-  return [...known, ...here.filter((group) => !known.includes(group))]
+  const groups = [...new Set(parameters.map((parameter) => parameter.group))]
+  const here = groups.filter((group) => !elsewhere.includes(group))
+  const first = FIRST.filter((group) => here.includes(group))
+  return [...first, ...here.filter((group) => !first.includes(group))]
 }

@@ -1,4 +1,4 @@
-/* Goal: an impossible value is named, element by element, before anybody is asked. */
+/* Goal: an impossible value is named, element by element, before a request is sent. */
 import { expect, it } from 'vitest'
 import type { Parameter } from '../api/types'
 import { faultsOf } from './limits'

@@ -1,4 +1,4 @@
-// What is wrong with a value before anyone is asked: the unit's own bounds, one message a field.
+// What is wrong with a value before a request is sent: the unit's own bounds, one message a field.
 import { PARAMETERS, type ParameterRow } from '$generated/registry'
 import type { Parameter, ParameterValue } from '../api/types'
 
@@ -19,14 +19,14 @@ const rows: Readonly<Record<string, ParameterRow>> = PARAMETERS
 
 /** Every fault of a parameter's value, with the index of the element at fault. */
 export function faultsOf(parameter: Parameter, value: ParameterValue): FieldFault[] {
-  const found: FieldFault[] = []
-  const at = (path: number[], fault: Fault) => found.push({ name: parameter.name, path, fault })
+  const faults: FieldFault[] = []
+  const at = (path: number[], fault: Fault) => faults.push({ name: parameter.name, path, fault })
   walk(value, [], (element, path) => {
     const fault = elementFault(parameter, element)
     if (fault) at(path, fault)
   })
   const step = rows[parameter.name]?.least_step ?? 0
-  if (step > 0 && Array.isArray(value) && found.length === 0) {
+  if (step > 0 && Array.isArray(value) && faults.length === 0) {
     const points = value as number[]
     points.forEach((point, i) => {
       const before = points[i - 1]
@@ -34,7 +34,7 @@ export function faultsOf(parameter: Parameter, value: ParameterValue): FieldFaul
         at([i], { code: 'not_increasing', bound: step })
     })
   }
-  return found
+  return faults
 }
 
 /** As the unit computes it, in float32 throughout: a hundredth is for the decimals' rounding. */

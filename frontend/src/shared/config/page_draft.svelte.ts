@@ -1,4 +1,4 @@
-// The draft of a page for the unit that is chosen, kept up with what that unit has.
+// The draft of a page for the unit that is chosen, kept up to date with that unit.
 import { untrack } from 'svelte'
 import type { Refusal } from '../api/client'
 import { useAppContext } from '../context/app_context'
@@ -11,14 +11,14 @@ export interface PageDraft {
   /** Null while there is no unit. */
   readonly draft: ConfigDraft | null
   /** Why the unit's configuration could not be read; null if it could. */
-  readonly trouble: string | null
+  readonly problem: string | null
 }
 
 /** Follows the chosen unit; called while a component is made. */
 export function pageDraft(page: string): PageDraft {
   const { devices, locale } = useAppContext()
   const drafts = useDrafts()
-  let trouble = $state<string | null>(null)
+  let problem = $state<string | null>(null)
   const device = $derived(devices.current)
   const readable = $derived(devices.ready && can(device, 'read_config'))
   const generation = $derived(device?.config?.generation)
@@ -31,26 +31,26 @@ export function pageDraft(page: string): PageDraft {
   $effect(() => {
     if (!recalled || !draft) return
     untrack(() => draft.recall()).then(
-      () => (trouble = null),
-      (error: Refusal) => (trouble = refusalText(locale, error)),
+      () => (problem = null),
+      (error: Refusal) => (problem = refusalText(locale, error)),
     )
   })
   $effect(() => {
     if (!readable || !draft) return
     const stamped = generation !== undefined && crc32 !== undefined
     const stamp = stamped ? { generation, crc32 } : null
-    // What the draft learns meanwhile is no reason to ask again.
+    // A change of the draft must not trigger another read.
     untrack(() => draft.follow(stamp)).then(
-      () => (trouble = null),
-      (error: Refusal) => (trouble = refusalText(locale, error)),
+      () => (problem = null),
+      (error: Refusal) => (problem = refusalText(locale, error)),
     )
   })
   return {
     get draft() {
       return draft
     },
-    get trouble() {
-      return trouble
+    get problem() {
+      return problem
     },
   }
 }

@@ -43,11 +43,11 @@ export function bandText(
   locale: Locale,
   units: Units,
   parameter: Parameter,
-  said: 'known' | 'left',
+  phrase: 'range' | 'left',
 ): string {
   const { free, unit } = parameter
   const shown = (value: number) => `${shownTyped(value, unit, units)} ${units.label(unit)}`.trim()
-  return free ? locale.t(`band.${said}`, { low: shown(free.min), high: shown(free.max) }) : ''
+  return free ? locale.t(`band.${phrase}`, { low: shown(free.min), high: shown(free.max) }) : ''
 }
 
 /** A fault in words. */
@@ -59,14 +59,14 @@ export function faultText(locale: Locale, units: Units, fault: Fault, unit: stri
 
 /** A moment, and the bytes of a certificate, as people read them, a dash for none yet; null for any
     other parameter, whose elements stand for themselves. */
-export function wholeText(
+export function singleText(
   locale: Locale,
   name: string,
   value: ParameterValue | null,
 ): string | null {
   if (name.endsWith('_utc_s')) {
-    const known = typeof value === 'number' && value > 0
-    return known ? locale.instant(new Date(value * MS_PER_S).toISOString()) : '—'
+    const is_set = typeof value === 'number' && value > 0
+    return is_set ? locale.instant(new Date(value * MS_PER_S).toISOString()) : '—'
   }
   if (name !== 'calibration_certificate') return null
   const bytes = Array.isArray(value) ? (value as number[]) : []
@@ -75,7 +75,7 @@ export function wholeText(
     : '—'
 }
 
-/** A whole value in one line, for lists of what changed. */
+/** A complete value in one line, for lists of what changed. */
 export function valueText(
   locale: Locale,
   units: Units,
@@ -83,8 +83,8 @@ export function valueText(
   value: ParameterValue | null,
 ): string {
   if (value === null) return '—'
-  const whole = parameter && wholeText(locale, parameter.name, value)
-  if (whole) return whole
+  const single = parameter && singleText(locale, parameter.name, value)
+  if (single) return single
   const parts: string[] = []
   walk(value, [], (element) => parts.push(elementText(locale, units, parameter, element)))
   return parts.join(' ')

@@ -12,7 +12,7 @@ it('knows from the registry which limits only go down', () => {
   expect(isRatchet('of_a_newer_unit')).toBe(false)
 })
 
-it('tells down from up, and neither from no change', () => {
+it('distinguishes down, up, and no change', () => {
   expect(ratchetMove('assist_cutoff_kmh', 25, 20)).toBe('lowered')
   expect(ratchetMove('assist_cutoff_kmh', 20, 25)).toBe('raised')
   expect(ratchetMove('assist_cutoff_kmh', 20, 20)).toBeNull()

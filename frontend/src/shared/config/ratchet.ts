@@ -1,4 +1,4 @@
-// Limits that go down freely and up only with the maker's token. The unit decides; this only tells
+// Limits that go down freely and up only with the maker's token. The unit decides; this only shows
 // the reader beforehand.
 import { PARAMETERS, type ParameterRow } from '$generated/registry'
 import type { ConfigChange, Parameter, ParameterValue } from '../api/types'
@@ -28,7 +28,7 @@ export function ratchetMove(
   return value < old ? 'lowered' : 'raised'
 }
 
-/** Whether the unit will ask for the maker's token: a factory's parameter, a limit that goes up, or
+/** Whether the unit will require the maker's token: a factory's parameter, a limit that goes up, or
     a value further from the factory's than a dealer may set. */
 export function needsToken(
   parameter: Parameter,

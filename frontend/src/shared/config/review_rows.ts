@@ -11,7 +11,7 @@ import {
   faultText,
   parameterLabel,
   rangeText,
-  wholeText,
+  singleText,
 } from './parameter_text'
 import { shownTyped, typed } from '../units/typed'
 import { isFactorys, needsToken, ratchetMove } from './ratchet'
@@ -23,13 +23,13 @@ export interface ElementChange {
   label: string
   old: string
   value: string
-  /** What the unit had when the edit began, where somebody changed this element meanwhile. */
+  /** What the unit had when the edit began, where this element was changed elsewhere meanwhile. */
   before: string | null
   range: string
   fault: string | null
   /** For what only a token changes, or changes back: what the reader should know. */
   token: string | null
-  /** Whether the unit will ask for the maker's token. */
+  /** Whether the unit will require the maker's token. */
   locked: boolean
 }
 
@@ -42,15 +42,15 @@ export function elementChanges(
   change: DraftChange,
 ): ElementChange[] {
   const { parameter } = change
-  const whole = wholeText(locale, parameter.name, change.value)
-  if (whole !== null) {
+  const single = singleText(locale, parameter.name, change.value)
+  if (single !== null) {
     return [
       {
         key: parameter.name,
         path: [],
         label: parameterLabel(locale, parameter.name),
-        old: wholeText(locale, parameter.name, change.old) ?? '—',
-        value: whole,
+        old: singleText(locale, parameter.name, change.old) ?? '—',
+        value: single,
         before: null,
         range: '',
         fault: null,
@@ -60,14 +60,14 @@ export function elementChanges(
     ]
   }
   const faults = faultsOf(parameter, change.value)
-  const found: ElementChange[] = []
+  const changes: ElementChange[] = []
   walk(change.value, [], (element, path) => {
     const [old, before] = [change.old, draft.before(parameter.name)].map((value) =>
       elementAt(value, path),
     )
     const fault = faults.find((f) => f.path.join() === path.join())?.fault
     if (old === element && !fault) return
-    found.push({
+    changes.push({
       key: `${parameter.name}/${path.join('/')}`,
       path,
       label: elementLabel(locale, units, say, draft, parameter, path),
@@ -80,11 +80,11 @@ export function elementChanges(
       locked: needsToken(parameter, old ?? null, element),
     })
   })
-  return found
+  return changes
 }
 
-/** What others changed meanwhile beside the edits, as "what: from → to"; it stays. */
-export function changedBeside(
+/** What others changed meanwhile, apart from the edits, as "what: from → to"; it stays. */
+export function concurrentChanges(
   locale: Locale,
   units: Units,
   say: Say,
@@ -93,17 +93,17 @@ export function changedBeside(
   return draft.parameters.flatMap((parameter) => {
     const { name } = parameter
     const [was, now, edit] = [draft.before(name), draft.base(name), draft.value(name)]
-    const found: string[] = []
-    if (was === undefined || now === undefined) return found
-    if (wholeText(locale, name, now) !== null) return found
+    const changes: string[] = []
+    if (was === undefined || now === undefined) return changes
+    if (singleText(locale, name, now) !== null) return changes
     walk(now, [], (element, path) => {
       const old = elementAt(was, path)
       if (old === element || elementAt(edit, path) !== element) return
       const label = elementLabel(locale, units, say, draft, parameter, path)
       const [from, to] = [old, element].map((one) => elementText(locale, units, parameter, one))
-      found.push(`${label}: ${from} → ${to}`)
+      changes.push(`${label}: ${from} → ${to}`)
     })
-    return found
+    return changes
   })
 }
 

@@ -1,5 +1,5 @@
-// What somebody asks of the law when he asks about a state and not about a moment of a ride.
+// The fixed part of a question to the law about a steady state.
 import type { WhyRequest } from '../api/types'
 
-/** Held until what the law averages has settled. */
-export const STEADY = { brake: false, walk_button: false, held_s: 10 } satisfies Partial<WhyRequest>
+/** Long enough for what the law averages to settle. */
+export const STEADY = { brake: false, walk_button: false, hold_s: 10 } satisfies Partial<WhyRequest>

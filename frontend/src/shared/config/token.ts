@@ -8,8 +8,8 @@ const TOKEN_CHARACTERS = 144
 export function tokenIn(text: string): string | null {
   const joined = text.replace(/^0x/i, '').replace(/\s+/g, '')
   if (/^[0-9a-f]+$/i.test(joined)) return joined.length === TOKEN_CHARACTERS ? joined : null
-  const found = (text.match(/[0-9a-f]+/gi) ?? []).filter((w) => w.length === TOKEN_CHARACTERS)
-  return found.length === 1 ? (found[0] ?? null) : null
+  const tokens = (text.match(/[0-9a-f]+/gi) ?? []).filter((w) => w.length === TOKEN_CHARACTERS)
+  return tokens.length === 1 ? (tokens[0] ?? null) : null
 }
 
 /** What is handed to the maker: the text that `spindle unlock sign` reads. */
@@ -17,7 +17,7 @@ export function challengeText(challenge: TokenChallenge): string {
   return JSON.stringify({ challenge }, null, 2) + '\n'
 }
 
-/** A name for the file, so that a maker with several of them can tell them apart. */
+/** A name for the file, so that a maker with several of them can distinguish them. */
 export function challengeFile(challenge: TokenChallenge): string {
   return `challenge-${challenge.uid}-${challenge.nonce.slice(0, 8)}.json`
 }

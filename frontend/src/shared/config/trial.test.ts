@@ -1,4 +1,4 @@
-/* Goal: whoever sees a trial end is told what became of it: kept, given up, run out, cut short. */
+/* Goal: the end of a trial is shown with its outcome: kept, given up, run out, cut short. */
 import { describe, expect, it } from 'vitest'
 import type { Device } from '../api/types'
 import { endOf, isOver, secondsLeft, trialOf, type Trial } from './trial'
@@ -29,7 +29,7 @@ it('is not over while the unit is away, nor because another unit has none', () =
   expect(isOver(trial, unit(BEFORE, 'committed', 'asked'))).toBe(true)
 })
 
-it('is not over before the unit has said why, and over at once when it was kept', () => {
+it('is not over before the unit has reported why, and over at once when it was kept', () => {
   expect(isOver(trial, unit(BEFORE, 'committed', null))).toBe(false)
   expect(isOver(trial, unit(TRIED, 'committed', null))).toBe(true)
 })

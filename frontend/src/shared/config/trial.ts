@@ -9,8 +9,8 @@ export interface Trial {
   ends_ms: number
 }
 
-/** kept: it is for good. Else the unit is back at what it had, and why: as asked, its time ran
-    out, it was restarted or lost power, or it does not say. */
+/** kept: it is for good. Else the unit is back at what it had, and why: as requested, its time ran
+    out, it was restarted or lost power, or it reports none. */
 export type TrialEnd = 'kept' | 'asked' | 'time_out' | 'restart' | 'unknown'
 
 /** The trial that runs in a unit now; null without one. The end is counted from the time left, so
@@ -23,7 +23,7 @@ export function trialOf(device: Device | null, now_ms: number): Trial | null {
   return { device_id, unit_key, generation, crc32, ends_ms: now_ms + remaining_s * 1000 }
 }
 
-/** Whether a unit answers, no longer has this trial, and has said why. */
+/** Whether a unit answers, no longer has this trial, and has reported why. */
 export function isOver(trial: Trial, device: Device | null): boolean {
   if (!device || device.unit_key !== trial.unit_key || device.state !== 'ready') return false
   if (device.config?.state !== 'committed') return false

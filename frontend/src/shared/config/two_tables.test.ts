@@ -126,7 +126,7 @@ it('marks the table that was edited, both for none of its own', async () => {
   expect([isChanged(draft, 'first'), isChanged(draft, 'second')]).toEqual([false, true])
 })
 
-it('keeps edits of both, and tells by the names that undo moved which table to show', async () => {
+it('keeps edits of both, and finds by the names that undo moved which table to show', async () => {
   const draft = await draftOf()
   draft.set('second_rules', five(five('PB')))
   draft.set('fuzzy_gain_points', [0.1, 0.2, 0.3, 0.4, 0.45])

@@ -1,5 +1,5 @@
 // The unit's two fuzzy tables: between its parameters and what the server's law takes, the modes
-// that use them, and what else the linter is told so that it judges a table as the bike runs it.
+// that use them, and what else the linter gets so that it judges a table as the bike runs it.
 import type { AssistModes, FuzzyTable, Limits, LintRequest } from '../api/types'
 import type { ConfigDraft, Edits } from './config_draft.svelte'
 import { faultsOf } from './limits'
@@ -95,8 +95,8 @@ export function impossible(draft: ConfigDraft, names: string[]): boolean {
   })
 }
 
-/** The whole configuration as edited; null while a value of it is impossible. */
-export function wholeOf(draft: ConfigDraft): Edits | null {
+/** The complete configuration as edited; null while a value of it is impossible. */
+export function completeConfig(draft: ConfigDraft): Edits | null {
   if (!draft.loaded || impossible(draft, draft.parameters.map(({ name }) => name))) return null
   return draft.values
 }
@@ -116,7 +116,7 @@ export function isChanged(draft: ConfigDraft, which: TableName): boolean {
   return changed.some((name) => tableWith([name]) === which)
 }
 
-/** Which table a mode slot runs by; null if its law has none, or nobody knows. */
+/** Which table a mode slot runs by; null if its law has none, or it is unknown. */
 export function tableOfMode(read: Read, slot: number): TableName | null {
   const [laws, tables] = [read('mode_laws') as string[], read('mode_tables') as number[]]
   if (laws?.[slot] !== 'fuzzy') return null
@@ -143,7 +143,7 @@ export function surroundings(draft: ConfigDraft): Omit<LintRequest, 'fuzzy_table
   const names = (group: string) => draft.group(group).map((parameter) => parameter.name)
   const limits = [...names('limits'), ...names('market')]
   const modes_possible = !impossible(draft, names('assist'))
-  const gear_known = !impossible(draft, ['gear_ratio'])
+  const has_gear = !impossible(draft, ['gear_ratio'])
   return {
     assist_modes: modes_possible ? modesFrom((name) => draft.value(name)) : null,
     limits: impossible(draft, limits)
@@ -155,6 +155,6 @@ export function surroundings(draft: ConfigDraft): Omit<LintRequest, 'fuzzy_table
           draft.value('fixed_taper_end_kmh') as number,
         ]
       : null,
-    gear_ratio: gear_known ? (draft.value('gear_ratio') as number) : null,
+    gear_ratio: has_gear ? (draft.value('gear_ratio') as number) : null,
   }
 }

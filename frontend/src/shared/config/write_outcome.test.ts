@@ -13,7 +13,7 @@ it('does not know what became of a change whose last answer is missing', () => {
   expect(outcome(500, 'error')).toBe('unknown')
 })
 
-it('believes the server where it asked the unit again', () => {
+it('believes the server where it read the unit again', () => {
   const outcomeOf = (outcome: Refusal['outcome']) =>
     writeOutcome(new Refusal(504, 'commit_unanswered', '', [], null, outcome))
 
@@ -22,7 +22,7 @@ it('believes the server where it asked the unit again', () => {
   expect(outcomeOf('unknown')).toBe('unknown')
 })
 
-it('tells a silent unit from one that refuses', () => {
+it('distinguishes a silent unit from one that refuses', () => {
   expect(outcome(503, 'not_connected')).toBe('silent')
   expect(outcome(422, 'out_of_range')).toBe('refused')
   expect(outcome(409, 'not_standing_still')).toBe('moving')

@@ -6,7 +6,7 @@ import type { Refusal } from '../api/client'
 export type WriteOutcome =
   'moving' | 'conflict' | 'refused' | 'silent' | 'changed' | 'unknown' | 'differs'
 
-const found = { unchanged: 'silent', changed: 'changed', unknown: 'unknown' } as const
+const OUTCOMES = { unchanged: 'silent', changed: 'changed', unknown: 'unknown' } as const
 
 const outcomes: Record<string, WriteOutcome> = {
   not_standing_still: 'moving',
@@ -19,9 +19,9 @@ const outcomes: Record<string, WriteOutcome> = {
   port_vanished: 'silent',
 }
 
-/** What became of the change. Nobody knows where the server itself broke off, or where an answer is
+/** What became of the change. Unknown where the server itself broke off, or where an answer is
     missing and the server did not find out. */
 export function writeOutcome({ code, status, outcome }: Refusal): WriteOutcome {
-  if (outcome) return found[outcome]
+  if (outcome) return OUTCOMES[outcome]
   return outcomes[code] ?? ([0, 500, 504].includes(status) ? 'unknown' : 'refused')
 }

@@ -9,13 +9,13 @@ const PERIOD_MS = 1000
 export class DashboardWatch {
   /** Null until the first answer and while there is none: nothing old is shown. */
   values = $state.raw<Dashboard | null>(null)
-  private readonly polling = new PollWhileVisible(() => this.look(), PERIOD_MS)
+  private readonly polling = new PollWhileVisible(() => this.refresh(), PERIOD_MS)
 
   constructor(
     private readonly server: Server,
     private readonly device_id: string,
-    /** Told of each look. */
-    private readonly looked: (values: Dashboard | null) => void = () => undefined,
+    /** Called after each poll. */
+    private readonly onvalues: (values: Dashboard | null) => void = () => undefined,
   ) {}
 
   start(): void {
@@ -26,13 +26,13 @@ export class DashboardWatch {
     this.polling.stop()
   }
 
-  private async look(): Promise<void> {
+  private async refresh(): Promise<void> {
     try {
       this.values = await this.server.dashboard(this.device_id)
     } catch (error) {
       if (!(error instanceof Refusal)) throw error
       this.values = null
     }
-    this.looked(this.values)
+    this.onvalues(this.values)
   }
 }

@@ -1,4 +1,4 @@
-// Which units there are and how their links stand, asked once a second while the page is visible.
+// Which units there are and how their links stand, polled once a second while the page is visible.
 import { Refusal } from '../api/client'
 import type { Server } from '../api/server'
 import type { Device, Snapshot } from '../api/types'
@@ -8,15 +8,15 @@ const PERIOD_MS = 1000
 
 export class DeviceWatch {
   items = $state.raw<Device[]>([])
-  known = $state(false) // false until the server answered once
+  loaded = $state(false) // false until the server answered once
   unreachable = $state(false)
   chosen_id = $state<string | null>(null)
   /** The unit in whose place another one is, as it was last seen; null once it is back or its
-      leaving was noted. */
+      absence was acknowledged. */
   replaced = $state.raw<Device | null>(null)
   /** How often another unit came into the place of the current one. */
   replacements = $state(0)
-  /** Values come one by one, because no socket passes; told on every page. */
+  /** Values come one by one, because no socket passes; shown on every page. */
   polled = $state(false)
   current = $derived(this.items.find((d) => d.id === this.chosen_id) ?? this.items[0] ?? null)
   private readonly polling = new PollWhileVisible(() => this.refresh(), PERIOD_MS)
@@ -41,7 +41,7 @@ export class DeviceWatch {
     return this.current?.state === 'ready' && !this.unreachable
   }
 
-  /** When the current unit was last there, as a time in ms; null if it never was. The server keeps
+  /** When the current unit was last there, as a time in ms; null if it never was. The server stores
       it, so that it outlives this page. */
   get seen_at_ms(): number | null {
     const seen_at = this.current?.last_seen_at
@@ -62,7 +62,7 @@ export class DeviceWatch {
     return this.items.find((d) => d.id === device_id)?.unit_key ?? null
   }
 
-  /** A unit that is on another port now stays the one that is looked at. */
+  /** A unit that is on another port now stays the chosen one. */
   private followMoved(before: Device | null): void {
     if (!before?.unit_key || this.items.some((d) => d.id === before.id)) return
     this.chosen_id = this.items.find((d) => d.unit_key === before.unit_key)?.id ?? this.chosen_id
@@ -75,7 +75,7 @@ export class DeviceWatch {
     this.replacements += 1
   }
 
-  /** Asks now; also after something was connected or removed. */
+  /** Polls now; also after something was connected or removed. */
   async refresh(): Promise<void> {
     try {
       const items = await this.server.devices()
@@ -83,11 +83,11 @@ export class DeviceWatch {
       this.items = items
       this.followMoved(before)
       this.noteReplaced(before)
-      // A choice that an earlier version kept is a serial number.
+      // A choice that an earlier version stored is a serial number.
       const serial = this.chosen_id
       const chosen = items.find((d) => serial && d.identity?.serial_number === serial)
       if (chosen) this.chosen_id = chosen.id
-      this.known = true
+      this.loaded = true
       this.unreachable = false
     } catch (error) {
       if (!(error instanceof Refusal)) throw error
@@ -96,7 +96,7 @@ export class DeviceWatch {
   }
 }
 
-/** Whether two keys are of two units: one that nobody could tell from another may have got its name
+/** Whether two keys are of two units: one without a name of its own may have got it
     meanwhile. */
 function isAnother(before: string | null, now: string | null): boolean {
   return before !== null && now !== null && before !== now && !before.includes(':url:')

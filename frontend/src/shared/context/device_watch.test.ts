@@ -1,4 +1,4 @@
-// A choice that is kept in a browser outlives the version that kept it.
+// A choice that is stored in a browser outlives the version that stored it.
 import { describe, expect, it } from 'vitest'
 import type { Server } from '../api/server'
 import type { Device } from '../api/types'
@@ -8,9 +8,9 @@ function device(id: string, serial_number: string | null): Device {
   return { id, state: 'ready', identity: { serial_number } } as Device
 }
 
-async function watching(kept: string | null): Promise<DeviceWatch> {
+async function watching(stored: string | null): Promise<DeviceWatch> {
   const items = [device('sim', null), device('sim-two', '0042')]
-  const watch = new DeviceWatch({ devices: async () => items } as unknown as Server, kept)
+  const watch = new DeviceWatch({ devices: async () => items } as unknown as Server, stored)
   await watch.refresh()
   return watch
 }
@@ -26,13 +26,13 @@ describe('the chosen unit', () => {
     expect([watch.current?.id, watch.chosen_id]).toEqual(['sim-two', 'sim-two'])
   })
 
-  it('is nobody in particular while nobody chose, though a unit has no serial number', async () => {
+  it('is none while none is chosen, even if a unit has no serial number', async () => {
     expect((await watching(null)).chosen_id).toBeNull()
   })
 })
 
 describe('a unit that is plugged into another port', () => {
-  it('stays the one that is looked at', async () => {
+  it('stays the chosen one', async () => {
     const at = (id: string, unit_key: string) => ({ ...device(id, null), unit_key })
     let items = [at('bench', 'ebl:22'), at('usb0', 'ebl:11')]
     const watch = new DeviceWatch({ devices: async () => items } as unknown as Server, 'usb0')
@@ -45,19 +45,19 @@ describe('a unit that is plugged into another port', () => {
 })
 
 describe('another unit in the place of the one that was there', () => {
-  const there = (unit_key: string | null) => [{ ...device('cable', null), unit_key }]
+  const devices = (unit_key: string | null) => [{ ...device('cable', null), unit_key }]
 
   async function seeing(...keys: (string | null)[]): Promise<DeviceWatch> {
     let items: Device[] = []
     const watch = new DeviceWatch({ devices: async () => items } as unknown as Server, null)
     for (const key of keys) {
-      items = there(key)
+      items = devices(key)
       await watch.refresh()
     }
     return watch
   }
 
-  it('is noted with the unit that was there, and every time', async () => {
+  it('is recorded with the unit that was there, and every time', async () => {
     const watch = await seeing('ebl:11', 'ebl:22', 'ebl:33')
 
     expect(watch.replaced?.unit_key).toBe('ebl:22')

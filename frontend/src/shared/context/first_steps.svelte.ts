@@ -1,4 +1,4 @@
-// The first steps of somebody who is new: pages to have been on, until all are or they are hidden.
+// The first steps of a new user: pages to have been on, until all are or they are hidden.
 
 export const FIRST_STEPS = ['bike', 'live', 'tune', 'try', 'sensor'] as const
 export type FirstStep = (typeof FIRST_STEPS)[number]
@@ -9,9 +9,9 @@ export class FirstSteps {
   done = $state.raw<readonly FirstStep[]>([])
   put_away = $state(false)
 
-  /** `kept` is what `toJSON` gave before; anything unreadable counts as nothing done. */
-  constructor(kept: unknown) {
-    const { done, put_away } = (kept ?? {}) as { done?: unknown; put_away?: unknown }
+  /** `stored` is what `toJSON` returned before; anything unreadable counts as nothing done. */
+  constructor(stored: unknown) {
+    const { done, put_away } = (stored ?? {}) as { done?: unknown; put_away?: unknown }
     if (Array.isArray(done)) this.done = FIRST_STEPS.filter((step) => done.includes(step))
     this.put_away = put_away === true
   }

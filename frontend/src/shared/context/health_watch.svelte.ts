@@ -1,4 +1,4 @@
-// Whether everything that is to be kept is kept, asked every few seconds while the page is visible.
+// Whether everything is being stored, polled every few seconds while the page is visible.
 import { Refusal } from '../api/client'
 import type { Server } from '../api/server'
 import type { Health, RecorderHealth } from '../api/types'
@@ -21,7 +21,7 @@ export class HealthWatch {
     this.polling.stop()
   }
 
-  /** What became of a unit's rows since the server started; null while nobody knows. */
+  /** What became of a unit's rows since the server started; null while unknown. */
   recorder(device_id: string): RecorderHealth | null {
     return this.now?.devices.find((device) => device.id === device_id)?.recorder ?? null
   }

@@ -1,4 +1,4 @@
-// What the reader asked to have explained. The explanations load when they are first asked for.
+// The topic that the reader opened. The explanations load when they are first opened.
 
 /** The field's words that Spindle explains, in the order of the list. */
 export const TERMS = [
@@ -30,9 +30,9 @@ export const TERMS = [
 export type Term = (typeof TERMS)[number]
 
 /** A word, all of them, or the keys. */
-export type Asked = Term | 'words' | 'keys'
+export type HelpTopic = Term | 'words' | 'keys'
 
 export class Help {
-  /** Null while nothing is asked. */
-  asked = $state.raw<Asked | null>(null)
+  /** Null while the help is closed. */
+  topic = $state.raw<HelpTopic | null>(null)
 }

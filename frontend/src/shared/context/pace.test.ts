@@ -1,5 +1,6 @@
-/* Goal: a hand that moves asks hundreds of times; the first is answered at once, then the newest,
-   no oftener than the pace allows. Safari throws after 100 changes of the address in 30 s. */
+/* Goal: a moving pointer requests hundreds of times; the first is answered at once, then the
+   newest, no oftener than the pace allows. Safari throws after 100 changes of the address in 30 s.
+   */
 import { afterEach, beforeEach, expect, it, vi } from 'vitest'
 import { Pace } from './pace'
 
@@ -30,11 +31,11 @@ it('stays below 100 in 30 s, and goes on while the hand moves', () => {
   expect(count).toBeLessThan(100)
 })
 
-it('asks one at a time: a slow answer is waited for, then the newest is asked', async () => {
+it('sends one at a time: a slow answer is waited for, then the newest is sent', async () => {
   const pace = new Pace(40)
-  const asked: number[] = []
+  const requests: number[] = []
   const answer = (i: number) => () => {
-    asked.push(i)
+    requests.push(i)
     return new Promise<void>((resolve) => setTimeout(resolve, 200))
   }
 
@@ -44,7 +45,7 @@ it('asks one at a time: a slow answer is waited for, then the newest is asked', 
   }
   await vi.advanceTimersByTimeAsync(200)
 
-  expect(asked).toEqual([0, 6, 9])
+  expect(requests).toEqual([0, 6, 9])
 })
 
 it('does nothing after its end', () => {

@@ -1,4 +1,4 @@
-// Work that is asked for more often than it may be done: the first at once, then the newest only,
+// Work that is requested more often than it may be done: the first at once, then the newest only,
 // one at a time and at most once in a period.
 type Work = () => Promise<void> | void
 

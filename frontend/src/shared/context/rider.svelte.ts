@@ -1,4 +1,4 @@
-// What zones are shares of: told by the rider in Settings, kept in this browser; null until then.
+// What zones are shares of: set by the rider in Settings, stored in this browser; null until then.
 export class Rider {
   threshold_power_w = $state<number | null>(null)
   heart_rate_bpm_max = $state<number | null>(null)

@@ -24,14 +24,14 @@ describe('a unit that lists what it can do', () => {
     expect(pages.filter((page) => hasPage(plain, page))).toEqual(pages)
   })
 
-  it('is told apart by the first thing that a page lacks', () => {
+  it('is distinguished by the first thing that a page lacks', () => {
     expect(missingFor(unit('stream'), 'sensor')).toBe('rider_torque')
     expect(missingFor(unit('rider_torque'), 'sensor')).toBe('stream')
     expect(missingFor(unit('rider_torque', 'stream'), 'sensor')).toBeNull()
   })
 })
 
-it('is not asked where there is no unit', () => {
+it('is not checked where there is no unit', () => {
   expect(can(null, 'logs')).toBe(true)
   expect(missingFor(null, 'live')).toBeNull()
 })

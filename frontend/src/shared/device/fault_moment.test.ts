@@ -25,7 +25,7 @@ it('keeps zero on the scale, and a backward push too', () => {
   expect(scaleOf([-3], [4])).toEqual({ low: -10, top: 20 })
 })
 
-it('tells what was pushed before, from when nothing was read, and what became of the motor', () => {
+it('describes the push before, from when nothing was read, and what became of the motor', () => {
   const moment: Partial<FaultMoment> = {
     // The reading is gone before the unit is sure of the fault, and the motor with it.
     at_s: [-2, -1, -0.1, 0, 1],

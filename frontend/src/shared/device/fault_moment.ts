@@ -11,9 +11,9 @@ type Samples = readonly (number | null)[]
 
 /** Newton metres at the picture's lower and upper edge: round, and zero is always on it. */
 export function scaleOf(...lines: Samples[]): { low: number; top: number } {
-  const known = lines.flat().filter((value) => value !== null)
-  const top = Math.max(TOP_NM_LEAST, ...known)
-  const low = Math.min(0, ...known)
+  const present = lines.flat().filter((value) => value !== null)
+  const top = Math.max(TOP_NM_LEAST, ...present)
+  const low = Math.min(0, ...present)
   // An unloaded sensor reads a little around zero: that is no backward push.
   return { low: low < -NOISE_NM ? Math.floor(low / 10) * 10 : 0, top: Math.ceil(top / 20) * 20 }
 }
@@ -41,15 +41,15 @@ export function momentPath(
 
 /** Stretches [from, to] in seconds in which a line has no reading, each to the sample after it. */
 export function unread(at_s: readonly number[], values: Samples): [number, number][] {
-  const found: [number, number][] = []
+  const gaps: [number, number][] = []
   at_s.forEach((at, i) => {
     if (values[i] != null) return
-    const last = found.at(-1)
+    const last = gaps.at(-1)
     const until = at_s[i + 1] ?? at
     if (last && last[1] === at) last[1] = until
-    else found.push([at, until])
+    else gaps.push([at, until])
   })
-  return found
+  return gaps
 }
 
 /** The moment in numbers; null where nothing was read. unread_from_s: from where on there is no

@@ -26,14 +26,14 @@ it('takes a fault it does not know for one that stays, and says that the firmwar
 it('counts warnings as warnings only while there is nothing worse', () => {
   // No fault of today's units is a mere warning; one of tomorrow's may be.
   const rows = FAULTS as Record<string, FaultRow>
-  rows.told_only = { severity: 'warning', rider_text: '', mechanic_text: '' }
+  rows.minor = { severity: 'warning', rider_text: '', mechanic_text: '' }
   onTestFinished(() => {
-    delete rows.told_only
+    delete rows.minor
   })
 
   expect([faultTone(null), faultTone(unit())]).toEqual([null, null])
-  expect(faultTone(unit('told_only'))).toBe('warn')
-  expect(faultCount(locale, unit('told_only'))).toBe('1 warning')
-  expect(faultTone(unit('told_only', 'battery_low'))).toBe('bad')
-  expect(faultCount(locale, unit('told_only', 'battery_low'))).toBe('2 faults')
+  expect(faultTone(unit('minor'))).toBe('warn')
+  expect(faultCount(locale, unit('minor'))).toBe('1 warning')
+  expect(faultTone(unit('minor', 'battery_low'))).toBe('bad')
+  expect(faultCount(locale, unit('minor', 'battery_low'))).toBe('2 faults')
 })

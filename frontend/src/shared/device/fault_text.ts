@@ -8,7 +8,7 @@ export type Severity = FaultRow['severity']
 const rows: Readonly<Record<string, FaultRow>> = FAULTS
 
 /** Whether this Spindle has words for a fault; a newer firmware has faults it has none for. */
-export function isKnown(name: string): boolean {
+export function isRecognised(name: string): boolean {
   return name in rows
 }
 
@@ -31,7 +31,7 @@ export function faultList(locale: Locale, names: readonly string[]): string {
 /** What to do, in a rider's words. */
 export function riderText(locale: Locale, name: string): string {
   const row = rows[name]
-  return row ? locale.said('fault', name, row.rider_text) : locale.t('faults.newer_text')
+  return row ? locale.translated('fault', name, row.rider_text) : locale.t('faults.newer_text')
 }
 
 /** bad: the motor gives nothing. warn: warnings only. null: no fault. */

@@ -1,5 +1,5 @@
 // A unit takes a new configuration only while wheel and motor stand still. A simulated rider can be
-// asked to stop for it, and goes on afterwards.
+// told to stop for it, and goes on afterwards.
 import { RESTING_KMH, RESTING_MOTOR_RPM } from '$generated/registry'
 import { Refusal } from '../api/client'
 import type { Server } from '../api/server'
@@ -11,7 +11,7 @@ export interface Pause {
   wait: (ms: number) => Promise<void>
 }
 
-/** Whether wheel and motor rest; stands is null where the unit does not tell both. */
+/** Whether wheel and motor rest; stands is null where the unit does not report both. */
 export interface Standstill {
   stands: boolean | null
   speed_kmh: number | null
@@ -57,7 +57,7 @@ async function actOnceStanding<T>(
 ): Promise<T> {
   for (let waited_ms = 0; ; waited_ms += POLL_MS) {
     const { stands } = standstillOf(await server.channels(id))
-    // A unit that does not tell its speed is not waited for: it says itself whether it moves.
+    // A unit that does not report its speed is not waited for: it checks itself whether it moves.
     if (stands !== false || waited_ms >= WAIT_MS_MAX) {
       try {
         return await act()

@@ -89,7 +89,7 @@ it('takes whole numbers alone where only those are meant', () => {
   expect([onvalue.mock.lastCall, marked()]).toEqual([[NaN], true])
 })
 
-it('may stay empty where nothing needs to be said', () => {
+it('may stay empty where it is optional', () => {
   show({ optional: true })
   type(' ')
   leave()

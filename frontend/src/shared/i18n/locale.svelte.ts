@@ -31,7 +31,7 @@ export class Locale {
 
   /** What the server says in English and with a code: translated by its code where it is known.
       `{name}` in the translation is replaced by `values.name`. */
-  said(kind: CodeKind, code: string, english: string, values?: Values): string {
+  translated(kind: CodeKind, code: string, english: string, values?: Values): string {
     const translated = this.dictionary.codes[kind]?.[code]
     return translated === undefined ? english : fill(translated, values)
   }
@@ -46,7 +46,7 @@ export class Locale {
     }).format(value)
   }
 
-  /** A share in per cent with one decimal. Rounded down: what is not whole never reads 100. */
+  /** A share in per cent with one decimal. Rounded down: what is not complete never reads 100. */
   share(part: number): string {
     return this.number(Math.floor(part * 1000) / 10, 1)
   }
@@ -83,13 +83,13 @@ export class Locale {
 
 /** h:mm:ss of a duration in seconds; below an hour m:ss. */
 export function clock(seconds: number): string {
-  const whole = Math.max(0, Math.round(seconds))
-  const [h, m, s] = [Math.floor(whole / 3600), Math.floor(whole / 60) % 60, whole % 60]
+  const total = Math.max(0, Math.round(seconds))
+  const [h, m, s] = [Math.floor(total / 3600), Math.floor(total / 60) % 60, total % 60]
   const tail = String(s).padStart(2, '0')
   return h > 0 ? `${h}:${String(m).padStart(2, '0')}:${tail}` : `${m}:${tail}`
 }
 
 /** Words with their `{name}` replaced by `values.name`. */
 export function fill(words: string, values: Values = {}): string {
-  return words.replace(/\{(\w+)\}/g, (whole, name: string) => String(values[name] ?? whole))
+  return words.replace(/\{(\w+)\}/g, (total, name: string) => String(values[name] ?? total))
 }

@@ -55,7 +55,7 @@ it('shows a missing number as a dash, never as zero', () => {
   expect([locale.number(null), locale.number(NaN), locale.number(0)]).toEqual(['—', '—', '0'])
 })
 
-it('calls no share whole that is not', () => {
+it('rounds no share up to 100 %', () => {
   const locale = new Locale()
 
   expect([locale.share(0.99995), locale.share(1)]).toEqual(['99.9', '100.0'])
@@ -64,12 +64,13 @@ it('calls no share whole that is not', () => {
 it("states the server's findings in Chinese with the numbers of the English", async () => {
   const values = { market: '日本', speed_kmh: 24 }
   const locale = new Locale()
-  const said = () => locale.said('lint', 'cutoff_above_market', 'as the server says it', values)
+  const sentence = () =>
+    locale.translated('lint', 'cutoff_above_market', 'as the server says it', values)
 
-  expect(said()).toBe('as the server says it')
+  expect(sentence()).toBe('as the server says it')
   await locale.speak('zh')
-  expect(said()).toContain('（日本）')
-  expect(said()).toContain('24 km/h')
+  expect(sentence()).toContain('（日本）')
+  expect(sentence()).toContain('24 km/h')
 })
 
 it('writes durations as a clock', () => {

@@ -4,6 +4,6 @@ import type { Locale } from './locale.svelte'
 
 /** What the server says, and with a lost answer whether the unit has the change. */
 export function refusalText(locale: Locale, refusal: Refusal): string {
-  const said = locale.said('refusal', refusal.code, refusal.message)
-  return refusal.outcome ? `${said} ${locale.t(`outcome.${refusal.outcome}`)}` : said
+  const message = locale.translated('refusal', refusal.code, refusal.message)
+  return refusal.outcome ? `${message} ${locale.t(`outcome.${refusal.outcome}`)}` : message
 }

@@ -20,7 +20,7 @@ describe('a ride is called', () => {
     expect(rideTitle(ride({ place: dublin }), locale)).toBe('Night loop, Dublin')
   })
 
-  it('by the time of day alone without a place or with a zone nobody knows', () => {
+  it('by the time of day alone without a place or with an unknown zone', () => {
     const nowhere = { name: null, country: null, zone: 'Moon/Crater', is_loop: null }
     expect(rideTitle(ride({ place: nowhere }), locale)).toMatch(/^\w+ ride$/)
   })

@@ -1,4 +1,4 @@
-/* Goal: a reader is told where in the table something is, not which index of which array. */
+/* Goal: a finding names its place in the table, not which index of which array. */
 import { Locale, type Language } from '$shared/i18n/locale.svelte'
 import { Units, type System } from '$shared/units/units.svelte'
 import { expect, it } from 'vitest'

@@ -1,4 +1,4 @@
-/* Goal: the page of modes tells what is about modes and limits, once, and not what is a table's. */
+/* Goal: the page of modes shows what is about modes and limits, once, and not what is a table's. */
 import type { Finding, LintReport } from '$shared/api/types'
 import { expect, it } from 'vitest'
 import { modeFindings } from './mode_findings'
@@ -6,7 +6,7 @@ import { modeFindings } from './mode_findings'
 const finding = (code: string, where: string): Finding => ({ code, where, message: '', values: {} })
 const report = (...warnings: Finding[]): LintReport => ({ errors: [], warnings, notes: [] })
 
-it('tells a mode and a limit once, and nothing that is of a table', () => {
+it('shows a mode and a limit once, and nothing that is of a table', () => {
   const first = report(
     finding('demand_beyond_motor', 'modes[3]'),
     finding('cutoff_above_market', 'assist_cutoff_kmh'),
@@ -20,9 +20,9 @@ it('tells a mode and a limit once, and nothing that is of a table', () => {
     finding('cutoff_above_market', 'assist_cutoff_kmh'),
   )
 
-  const told = modeFindings([first, second]).warnings.map(({ code, where }) => [code, where])
+  const places = modeFindings([first, second]).warnings.map(({ code, where }) => [code, where])
 
-  expect(told).toEqual([
+  expect(places).toEqual([
     ['demand_beyond_motor', 'modes[3]'],
     ['cutoff_above_market', 'assist_cutoff_kmh'],
     ['demand_beyond_motor', 'modes[4].ratio'],

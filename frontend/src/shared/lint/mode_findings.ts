@@ -3,7 +3,7 @@ import type { LintReport, LintRequest } from '../api/types'
 import type { ConfigDraft } from '../config/config_draft.svelte'
 import { modesWith, surroundings, tableOf, TABLES, type TableName } from '../config/two_tables'
 
-/** What the linter is asked about one of the draft's tables; null while a value is impossible. */
+/** The question to the linter about one of the draft's tables; null while a value is impossible. */
 export function lintQuestion(draft: ConfigDraft, table: TableName): LintRequest | null {
   const fuzzy_table = tableOf(draft, table)
   return fuzzy_table && { fuzzy_table, table, ...surroundings(draft) }
@@ -20,10 +20,10 @@ export function modeQuestions(draft: ConfigDraft): LintRequest[] {
 /** Each finding about a mode, a limit or the market once, however many tables it was found with. */
 export function modeFindings(reports: readonly LintReport[]): LintReport {
   const only = (kind: keyof LintReport) => {
-    const found = reports
+    const findings = reports
       .flatMap((report) => report[kind])
       .filter(({ where }) => /^(modes\[\d+\].*|(?!modes$)[a-z_]+)$/.test(where ?? ''))
-    return [...new Map(found.map((one) => [`${one.code} ${one.where}`, one])).values()]
+    return [...new Map(findings.map((one) => [`${one.code} ${one.where}`, one])).values()]
   }
   return { errors: only('errors'), warnings: only('warnings'), notes: only('notes') }
 }

@@ -21,7 +21,7 @@ export interface StreamState {
   reason: string | null
 }
 
-/** The unit or a channel does not exist: asking again at once will not help. */
+/** The unit or a channel does not exist: requesting again at once will not help. */
 export interface StreamError {
   type: 'error'
   code: string

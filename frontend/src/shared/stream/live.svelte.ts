@@ -12,7 +12,7 @@ import { hangUp } from './hang_up'
 import type { Newest } from './polled'
 import { TraceBuffer } from './trace_buffer'
 
-const STALE_AFTER_MS = 1500 // a rider's glance: older than this must not look alive
+const STALE_AFTER_MS = 1500 // a rider's glance: older than this must not count as live
 const GONE = ['lost', 'closed'] // a unit known to be away has no live values, however young
 const SILENT_AFTER_MS = 5000 // an open socket without frames is dead (Wi-Fi change, sleep)
 const RETRY_MS_MAX = 3000
@@ -25,7 +25,7 @@ const RETRY_POLLED_MS = 10_000
 export interface Instead {
   /** Whether the server does not answer at all. */
   readonly unreachable: boolean
-  /** Whether values are asked for one by one. */
+  /** Whether values are polled one by one. */
   polled: boolean
   newest(device_id: string): Promise<Newest>
 }
@@ -57,7 +57,7 @@ export class LiveStream {
   private timers: ReturnType<typeof setTimeout>[] = []
   private ticker: ReturnType<typeof setInterval> | null = null
   private closed = false
-  private failures = 0 // since a socket was last heard
+  private failures = 0 // since a socket last received something
   private stopPolling: (() => void) | null = null
 
   constructor(
@@ -67,7 +67,7 @@ export class LiveStream {
     this.buffer = new TraceBuffer(options.window_s ?? 30)
   }
 
-  /** Whether what is shown is too old to look alive. */
+  /** Whether what is shown is too old to count as live. */
   get stale(): boolean {
     const gone = this.link_state !== null && GONE.includes(this.link_state)
     return gone || this.age_ms > STALE_AFTER_MS
@@ -130,18 +130,18 @@ export class LiveStream {
       if (this.closed || this.failures === 0) return
       this.stopPolling ??= poll(this, options.channels, () => instead.newest(options.device_id))
       instead.polled = true
-      this.link_state = null // told by sockets
+      this.link_state = null // reported by sockets
     })
   }
 
-  private heard(): void {
+  private markAlive(): void {
     this.failures = 0
     this.stopPolling?.()
     this.stopPolling = null
     this.instead.polled = false
   }
 
-  // After sleep or a network change the old socket may look open for minutes: do not believe it.
+  // After sleep or a network change the old socket may seem open for minutes: reconnect.
   private readonly wake = (): void => {
     if (document.hidden || this.age_ms < STALE_AFTER_MS) return
     this.reconnect()
@@ -163,7 +163,7 @@ export class LiveStream {
 
   private receiveText(text: string): void {
     const message = JSON.parse(text) as StreamHeader | StreamState | StreamError
-    this.heard()
+    this.markAlive()
     if (message.type === 'stream') {
       this.begin(message)
     } else if (message.type === 'state') {

@@ -10,7 +10,7 @@ afterEach(() => void vi.useRealTimers())
 async function fed(...answers: (Newest | null)[]) {
   const headers: StreamHeader[] = []
   const frames: StreamFrame[] = []
-  const ask = vi.fn(async () => {
+  const fetchNewest = vi.fn(async () => {
     const answer = answers.shift()
     if (!answer) throw new Error('nobody answers')
     return answer
@@ -19,12 +19,12 @@ async function fed(...answers: (Newest | null)[]) {
     begin: (header: StreamHeader) => void headers.push(header),
     take: (frame: StreamFrame) => void frames.push(frame),
   }
-  const stop = poll(taker, ['speed_kmh', 'gone'], ask)
+  const stop = poll(taker, ['speed_kmh', 'gone'], fetchNewest)
   await vi.advanceTimersByTimeAsync(answers.length * 1000)
   stop()
-  const asked = ask.mock.calls.length
+  const calls = fetchNewest.mock.calls.length
   await vi.advanceTimersByTimeAsync(5000)
-  expect(ask.mock.calls.length).toBe(asked)
+  expect(fetchNewest.mock.calls.length).toBe(calls)
   return { headers, frames }
 }
 
@@ -33,7 +33,7 @@ const at = (t_s: number, speed_kmh: number): Newest => ({
   channels: { speed_kmh },
 })
 
-it('gives on each row once, in the channels that were asked for', async () => {
+it('passes each row on once, in the requested channels', async () => {
   const { headers, frames } = await fed(at(1, 20.5), at(1, 20.5), null, at(3, 21))
 
   expect(headers.map((header) => header.channels.map(({ name }) => name))).toEqual([
@@ -45,6 +45,6 @@ it('gives on each row once, in the channels that were asked for', async () => {
   ])
 })
 
-it('says nothing while nobody answers', async () => {
+it('stays silent while there is no answer', async () => {
   expect(await fed(null, null, null)).toEqual({ headers: [], frames: [] })
 })

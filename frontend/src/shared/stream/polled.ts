@@ -1,9 +1,10 @@
-// The newest values of a unit, asked for one after the other, where no socket passes. Fetched when
-// that shows: elsewhere nobody needs it.
+// The newest values of a unit, requested one after the other, where no socket passes. Fetched when
+// that shows: elsewhere it is not needed.
 import type { StreamFrame, StreamHeader } from './frame'
 import { MISSING } from './frame'
 
-// A value counts as stale after one and a half seconds: asking has to fit in, on a slow way, too.
+// A value counts as stale after one and a half seconds: a request has to fit in, on a slow
+// connection, too.
 const PERIOD_MS = 900
 
 export interface Newest {
@@ -17,16 +18,16 @@ export interface Fed {
   take(frame: StreamFrame): void
 }
 
-/** Feeds `fed` until the returned function is called. `ask` throws while there is no answer; what
-    is no newer than what was there is not given on, so that it looks as old as it is. */
-export function poll(fed: Fed, names: string[], ask: () => Promise<Newest>): () => void {
+/** Feeds `fed` until the returned function is called. `fetchNewest` throws while there is no
+    answer; what is no newer than what was there is not passed on, so that its age shows. */
+export function poll(fed: Fed, names: string[], fetchNewest: () => Promise<Newest>): () => void {
   let timer: ReturnType<typeof setTimeout> | undefined
   let stopped = false
   let seen_us: number | null = null
 
   async function turn() {
     const began_ms = performance.now()
-    const newest = document.hidden ? null : await ask().catch(() => null)
+    const newest = document.hidden ? null : await fetchNewest().catch(() => null)
     if (stopped) return
     if (newest && newest.t_us !== seen_us) {
       if (seen_us === null) fed.begin(header(names))

@@ -54,8 +54,8 @@ export class TraceBuffer {
   private trim(): void {
     const oldest_s = this.end_s - this.window_s
     if ((this.times[0] ?? Infinity) > oldest_s - 0.2 * this.window_s) return
-    const keep = this.times.findIndex((t) => t >= oldest_s)
-    this.times.splice(0, keep)
-    for (const column of this.columns) column.splice(0, keep)
+    const first = this.times.findIndex((t) => t >= oldest_s)
+    this.times.splice(0, first)
+    for (const column of this.columns) column.splice(0, first)
   }
 }

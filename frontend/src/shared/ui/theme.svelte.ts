@@ -1,4 +1,4 @@
-// Light, dark or as the system has it; charts ask here for the colours the style sheet gives.
+// Light, dark or as the system has it; charts get here the colours the style sheet gives.
 
 export type ThemeChoice = 'system' | 'light' | 'dark'
 

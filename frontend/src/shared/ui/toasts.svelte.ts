@@ -33,7 +33,7 @@ export class Toasts {
     this.items = this.items.filter((toast) => toast.id !== id)
   }
 
-  /** Keeps a message while somebody points at it or has the focus in it. */
+  /** Keeps a message while the pointer is over it or the focus is in it. */
   hold(id: number): void {
     clearTimeout(this.timers[id])
   }

@@ -22,7 +22,7 @@ it('lets good news go and keeps a failure', () => {
   expect(words(toasts)).toEqual(['not written'])
 })
 
-it('keeps good news while somebody points at it, and lets it go after that', () => {
+it('keeps good news while the pointer is over it, and lets it go after that', () => {
   const toasts = new Toasts()
   toasts.say('ok', 'written')
   const id = toasts.items[0]?.id ?? 0
@@ -36,7 +36,7 @@ it('keeps good news while somebody points at it, and lets it go after that', () 
   expect(words(toasts)).toEqual([])
 })
 
-it('drops good news rather than a failure that nobody has seen', () => {
+it('drops good news rather than an unseen failure', () => {
   const toasts = new Toasts()
   toasts.say('bad', 'not written')
   for (const text of ['one', 'two', 'three']) toasts.say('ok', text)

@@ -6,7 +6,7 @@ export function typed(value: number): string {
   return Number.isFinite(value) ? String(Number(value.toPrecision(6))) : ''
 }
 
-/** A value where it can be typed: whole in its own unit, to four digits in another. */
+/** A value where it can be typed: unrounded in its own unit, to four digits in another. */
 export function shownTyped(value: number, unit: string, units: Units): string {
   const shown = units.show(value, unit)
   return typed(shown === value ? shown : Number(shown.toPrecision(4)))

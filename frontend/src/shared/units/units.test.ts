@@ -1,4 +1,4 @@
-/* Goal: whoever reads miles reads feet with them, and no value is converted that is not a length or
+/* Goal: with miles go feet, and no value is converted that is not a length or
    a speed of the road. Factors: one foot is 0.3048 m, one mile 1609.344 m, exactly. */
 import { expect, it } from 'vitest'
 import { Locale } from '../i18n/locale.svelte'

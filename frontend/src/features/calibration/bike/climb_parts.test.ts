@@ -1,6 +1,6 @@
-// Goal: what is asked of a climb is what was chosen, and what is drawn of it adds nothing up.
+// Goal: the request for a climb is what was chosen, and what is drawn of it adds nothing up.
 import { expect, test } from 'vitest'
-import type { ClimbTold } from './bike_server'
+import type { ClimbResult } from './bike_server'
 import { asSlope, barsOf, withPart, type Part } from './climb_parts'
 
 const part = (kind: Part['kind'], ride_id: number, rise_m: number | null = 0): Part => ({
@@ -24,17 +24,17 @@ test('there is one climb, and every coast-down', () => {
   ])
 })
 
-test('a height that nobody typed is the ride itself to tell', () => {
+test('a height that was not entered comes from the ride', () => {
   expect(asSlope(part('climb', 1, null)).rise_m).toBeNull()
   expect(asSlope(part('climb', 1, NaN)).rise_m).toBeNull()
   expect(asSlope(part('coast', 1, 0)).rise_m).toBe(0)
 })
 
-test('legs and motor stand apart, and what nobody measured is no zero', () => {
+test('legs and motor are separate, and what was not measured is no zero', () => {
   const needed = { gravity_j: 18000, kinetic_j: -360, rolling_j: 900, air_j: 0, drivetrain_j: 540 }
   const balance = { crank_energy_j: 36000, motor_energy_j: null, needed, contributions: {} }
 
-  const bars = barsOf({ balance } as unknown as ClimbTold)
+  const bars = barsOf({ balance } as unknown as ClimbResult)
 
   expect(bars.map(({ key, wh }) => [key, wh])).toEqual([
     ['legs', 10],

@@ -1,5 +1,5 @@
 // The parts of a climb's question, and its answer as bars.
-import type { ClimbTold, Slope } from './bike_server'
+import type { ClimbResult, Slope } from './bike_server'
 
 export interface Part {
   kind: 'climb' | 'coast'
@@ -8,13 +8,13 @@ export interface Part {
   to_s: number | null
   /** Null, or no number yet: by the ride's heights, where it has them. */
   rise_m: number | null
-  /** As the ride tells heights by itself. */
+  /** By the ride's own heights. */
   heights: boolean
 }
 
 export interface Bar {
   key: 'legs' | 'motor' | 'gravity' | 'kinetic' | 'rolling' | 'air' | 'drivetrain'
-  /** Null where nobody measured it. */
+  /** Null where not measured. */
   wh: number | null
   /** Of the longest, 0 to 1. */
   share: number
@@ -22,22 +22,22 @@ export interface Bar {
 
 const J_PER_WH = 3600
 
-/** Another part beside those chosen: there is one climb, and any number of coast-downs. */
+/** Another part besides those chosen: there is one climb, and any number of coast-downs. */
 export function withPart(parts: readonly Part[], part: Part): Part[] {
   const others = part.kind === 'climb' ? parts.filter(({ kind }) => kind !== 'climb') : [...parts]
   return part.kind === 'climb' ? [part, ...others] : [...others, part]
 }
 
-/** As it is asked: without a height of its own, by the ride's. */
+/** As sent: without an entered height, by the ride's. */
 export function asSlope({ ride_id, from_s, to_s, rise_m }: Part): Slope {
-  const told = rise_m !== null && Number.isFinite(rise_m)
-  return { ride_id, from_s, to_s, rise_m: told ? rise_m : null }
+  const terms = rise_m !== null && Number.isFinite(rise_m)
+  return { ride_id, from_s, to_s, rise_m: terms ? rise_m : null }
 }
 
 /** What gave and what took, each by itself: legs and motor are never added. */
-export function barsOf({ balance }: ClimbTold): Bar[] {
+export function barsOf({ balance }: ClimbResult): Bar[] {
   const { needed } = balance
-  const told: [Bar['key'], number | null][] = [
+  const terms: [Bar['key'], number | null][] = [
     ['legs', balance.crank_energy_j],
     ['motor', balance.motor_energy_j],
     ['gravity', needed.gravity_j],
@@ -46,8 +46,8 @@ export function barsOf({ balance }: ClimbTold): Bar[] {
     ['air', needed.air_j],
     ['drivetrain', needed.drivetrain_j],
   ]
-  const most = Math.max(...told.map(([, joules]) => Math.abs(joules ?? 0)), 1)
-  return told.map(([key, joules]) => ({
+  const most = Math.max(...terms.map(([, joules]) => Math.abs(joules ?? 0)), 1)
+  return terms.map(([key, joules]) => ({
     key,
     wh: joules === null ? null : joules / J_PER_WH,
     share: Math.abs(joules ?? 0) / most,
@@ -55,6 +55,6 @@ export function barsOf({ balance }: ClimbTold): Bar[] {
 }
 
 /** What leaves the ratio open, the largest first, as shares. */
-export function causesOf({ balance }: ClimbTold): [string, number][] {
+export function causesOf({ balance }: ClimbResult): [string, number][] {
   return Object.entries(balance.contributions).sort(([, a], [, b]) => b - a)
 }

@@ -19,11 +19,11 @@ export class BikeRides {
   loaded = $state(false)
   /** Of the next page of rides; null behind the last. */
   next = $state<string | null>(null)
-  trouble = $state.raw<Refusal | null>(null)
+  problem = $state.raw<Refusal | null>(null)
 
   constructor(private readonly server: Server) {}
 
-  /** Looks for rides that came since; those that are here stay what they are. */
+  /** Fetches rides added since; those already listed stay unchanged. */
   refresh = async (): Promise<void> => {
     await this.fetch(undefined, ({ next }) => {
       if (!this.loaded) this.next = next
@@ -39,17 +39,17 @@ export class BikeRides {
   private async fetch(cursor: string | undefined, then: (page: RideList) => void): Promise<void> {
     try {
       const page = await this.server.rides(cursor)
-      const known = this.items.map(({ id }) => id)
+      const existing = this.items.map(({ id }) => id)
       const fresh = page.items.filter(
-        ({ id, state, damage }) => !known.includes(id) && state === 'done' && !damage,
+        ({ id, state, damage }) => !existing.includes(id) && state === 'done' && !damage,
       )
       const newest = (a: Ride, b: Ride) => b.started_at.localeCompare(a.started_at)
       if (fresh.length > 0) this.items = [...this.items, ...fresh].sort(newest)
-      this.trouble = null
+      this.problem = null
       then(page)
     } catch (error) {
       if (!(error instanceof Refusal)) throw error
-      this.trouble = error
+      this.problem = error
     }
   }
 }
@@ -74,11 +74,11 @@ export class RidePart {
     this.view = drawn ? new RideView(ofRide(this.server, ride.id), channels, end_s, null) : null
   }
 
-  /** The part as it is asked about; without ends, all of it. */
-  get asked(): { ride_id: number; from_s: number | null; to_s: number | null } | null {
+  /** The selected part; without ends, the complete ride. */
+  get selection(): { ride_id: number; from_s: number | null; to_s: number | null } | null {
     if (!this.ride) return null
-    const { window, whole } = this.view ?? { window: null, whole: true }
-    const ends = whole || !window ? { from_s: null, to_s: null } : window
+    const { window, is_complete } = this.view ?? { window: null, is_complete: true }
+    const ends = is_complete || !window ? { from_s: null, to_s: null } : window
     return { ride_id: this.ride.id, ...ends }
   }
 

@@ -25,7 +25,7 @@ it('names first what both have, in the order of interest', () => {
   ])
 })
 
-it('shows speed, the rider and what was asked of both motors, never what one of them gave', () => {
+it('shows speed, the rider and the demand of both motors, never the delivery of one', () => {
   expect(usualOf(channels)).toEqual([
     'speed_kmh',
     'rider_power_w',
@@ -48,7 +48,7 @@ it('has degrees apart without a zero of their own', () => {
   expect([apartUnit('degC'), apartUnit('Nm')]).toEqual(['degC apart', 'Nm'])
 })
 
-const told: ComparedSeries = {
+const comparison: ComparedSeries = {
   by: 'distance',
   unit: 'm',
   end_x: 30,
@@ -67,7 +67,7 @@ const told: ComparedSeries = {
 }
 
 it('keeps edges, extremes and gaps of the bins', () => {
-  const series = seriesOf(told)
+  const series = seriesOf(comparison)
 
   expect([...series.t_first_s, ...series.t_last_s]).toEqual([0, 10, 20, 10, 20, 30])
   expect(series.channels.map(({ name }) => name)).toEqual(['a speed_kmh'])
@@ -82,7 +82,7 @@ it.each([
   [30, 2],
   [30.1, -1],
 ])('finds the bin of %d m', (x, bin) => {
-  expect(binAt(seriesOf(told), x)).toBe(bin)
+  expect(binAt(seriesOf(comparison), x)).toBe(bin)
 })
 
 it.each([

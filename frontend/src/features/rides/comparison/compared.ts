@@ -29,8 +29,8 @@ const USUAL = [
 
 const both = ({ a, b }: ComparedChannel) => a && b
 function place({ name }: ComparedChannel): number {
-  const found = ORDER.indexOf(name)
-  return found < 0 ? ORDER.length : found
+  const matches = ORDER.indexOf(name)
+  return matches < 0 ? ORDER.length : matches
 }
 
 /** Those that both have first, each part in the order of interest. */
@@ -43,8 +43,8 @@ export function inOrder(channels: readonly ComparedChannel[]): ComparedChannel[]
 /** What is shown at first: names. */
 export function usualOf(channels: readonly ComparedChannel[]): string[] {
   const common = inOrder(channels).filter(both).map(({ name }) => name)
-  const found = USUAL.flatMap((names) => names.find((name) => common.includes(name)) ?? [])
-  return found.length > 0 ? found : common.slice(0, 1)
+  const matches = USUAL.flatMap((names) => names.find((name) => common.includes(name)) ?? [])
+  return matches.length > 0 ? matches : common.slice(0, 1)
 }
 
 /** Heights are read in feet where ways are not. */
@@ -67,7 +67,7 @@ export function rowsOf(
     const unit = unitOf(channel)
     const token = TOKENS[name] ?? 'battery'
     const lines: TraceLine[] = []
-    if (a) lines.push({ channel: `a ${name}`, token: 'line-strong', name: 'A', look: 'broad' })
+    if (a) lines.push({ channel: `a ${name}`, token: 'line-strong', name: 'A', style: 'broad' })
     if (b) lines.push({ channel: `b ${name}`, token, name: 'B' })
     const row = { key: titles(name), unit, lines }
     if (!both(channel)) return [row]
@@ -77,24 +77,24 @@ export function rowsOf(
 }
 
 /** Bins as a series whose moments are places of the common axis. */
-export function seriesOf(told: ComparedSeries): Series {
-  const edges = Float64Array.from(told.x)
+export function seriesOf(comparison: ComparedSeries): Series {
+  const edges = Float64Array.from(comparison.x)
   const numbers = (values: readonly (number | null)[]) =>
     Float64Array.from(values, (n) => n ?? NaN)
-  const channels = told.channels.flatMap(({ name, unit, a, b, difference }) => {
-    const found: SeriesChannel[] = []
+  const channels = comparison.channels.flatMap(({ name, unit, a, b, difference }) => {
+    const matches: SeriesChannel[] = []
     for (const [side, bins] of [['a', a], ['b', b]] as const) {
       if (bins) {
         const [min, max] = [numbers(bins.min), numbers(bins.max)]
-        found.push({ name: `${side} ${name}`, unit, min, max })
+        matches.push({ name: `${side} ${name}`, unit, min, max })
       }
     }
     if (difference) {
       // Two arrays: it is drawn from edge to edge of its bin, like the others.
       const [min, max] = [numbers(difference), numbers(difference)]
-      found.push({ name: `apart ${name}`, unit, min, max })
+      matches.push({ name: `apart ${name}`, unit, min, max })
     }
-    return found
+    return matches
   })
   const last = edges.length - 1
   return {
@@ -102,7 +102,7 @@ export function seriesOf(told: ComparedSeries): Series {
     to_s: edges[last] ?? 0,
     rows: last,
     kind: 'minmax',
-    axis: told.by,
+    axis: comparison.by,
     t_first_s: edges.slice(0, last),
     t_last_s: edges.slice(1),
     channels,

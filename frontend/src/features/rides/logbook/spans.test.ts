@@ -24,7 +24,7 @@ describe('weeks', () => {
     expect(heights(some, 'motor_wh')).toEqual([null, null, null])
   })
 
-  it('tell which motor totals are not of all rides', () => {
+  it('show which motor totals are not of all rides', () => {
     const all = period({ rides: 2 })
     const some = period({ rides: 3, with_motor: 2, motor_wh: 5 })
     expect(lacking([period({}), all, some])).toEqual([

@@ -5,9 +5,9 @@ export type Row = 'distance_km' | 'rider_wh' | 'motor_wh'
 
 /** Heights of bars in percent of the highest; null where nothing is known. */
 export function heights(periods: readonly PeriodTotals[], row: Row): (number | null)[] {
-  const known = periods.map((period) => period[row])
-  const top = Math.max(...known.map((value) => value ?? 0))
-  return known.map((value) => (value === null ? null : top > 0 ? (100 * value) / top : 0))
+  const values = periods.map((period) => period[row])
+  const top = Math.max(...values.map((value) => value ?? 0))
+  return values.map((value) => (value === null ? null : top > 0 ? (100 * value) / top : 0))
 }
 
 export type Lack = { period: PeriodTotals; kind: 'all' | 'some'; count: number }
@@ -26,9 +26,9 @@ export function lacking(periods: readonly PeriodTotals[]): Lack[] {
 
 /** The first day of the reader's week, 1 Monday to 7 Sunday. */
 export function weekBegins(locale: string): number {
-  const told = new Intl.Locale(locale) as Intl.Locale & {
+  const info = new Intl.Locale(locale) as Intl.Locale & {
     getWeekInfo?: () => { firstDay: number }
     weekInfo?: { firstDay: number }
   }
-  return told.getWeekInfo?.().firstDay ?? told.weekInfo?.firstDay ?? 1
+  return info.getWeekInfo?.().firstDay ?? info.weekInfo?.firstDay ?? 1
 }

@@ -1,5 +1,5 @@
-/* Goal: a replay's figures are told truthfully: what is missing is missing, what was only asked of
-   a motor is called so, and only limits that were at work are named. */
+/* Goal: a replay's figures are true: what is missing is missing, torque that was only demanded is
+   called so, and only limits that were at work are named. */
 import type { Replay } from '$shared/api/types'
 import { expect, it } from 'vitest'
 import {
@@ -58,8 +58,8 @@ function replay(changes: Partial<Replay> = {}): Replay {
     ...changes,
   }
 }
-/** As a unit of before recorded it: one motor torque, and that is what was asked. */
-const asked = (changes: Partial<Replay> = {}) => {
+/** As earlier units recorded it: one motor torque, the demanded one. */
+const demandOnly = (changes: Partial<Replay> = {}) => {
   const { series } = replay()
   const channels = series.channels.filter(({ name }) => name !== 'motor_torque_demanded_nm')
   const unknown = { recorded: null, replayed: 6, difference: null }
@@ -71,8 +71,8 @@ const asked = (changes: Partial<Replay> = {}) => {
     ...changes,
   })
 }
-const channels = (told: Replay) => drawnSeries(told).channels.map(({ name }) => name)
-const torque = (told: Replay) => figureRows(told, drawnSeries(told))[2]
+const channels = (one: Replay) => drawnSeries(one).channels.map(({ name }) => name)
+const torque = (one: Replay) => figureRows(one, drawnSeries(one))[2]
 
 it('draws what the motor gave over what it would have given', () => {
   const [row, gain] = drawnRows(replay(), drawnSeries(replay()))
@@ -82,22 +82,22 @@ it('draws what the motor gave over what it would have given', () => {
     'replayed_motor_torque_nm',
     'replayed_fuzzy_gain',
   ])
-  expect(row?.key).toBe('torque_given')
+  expect(row?.key).toBe('torque_delivered')
   expect(row?.lines.map((line) => line.name)).toEqual(['as_ridden', 'open_loop'])
   // A gain that was not recorded is not named either.
   expect(gain?.lines.map((line) => line.name)).toEqual(['open_loop'])
 })
 
-it('compares what was asked with what would have been asked, and calls it so', () => {
-  const [row] = drawnRows(asked(), drawnSeries(asked()))
+it('compares demanded torque with the replayed demand, and names it so', () => {
+  const [row] = drawnRows(demandOnly(), drawnSeries(demandOnly()))
 
-  expect(channels(asked())).toEqual([
+  expect(channels(demandOnly())).toEqual([
     'motor_torque_demanded_nm',
     'replayed_motor_torque_demanded_nm',
     'replayed_fuzzy_gain',
   ])
-  expect(row?.key).toBe('torque_asked')
-  expect(torque(asked())).toMatchObject({ key: 'asked_nm', recorded: 1.5, replayed: 2.5 })
+  expect(row?.key).toBe('torque_demanded')
+  expect(torque(demandOnly())).toMatchObject({ key: 'demanded_nm', recorded: 1.5, replayed: 2.5 })
 })
 
 it('finds the largest torque in the bins, which keep every extreme', () => {
@@ -127,7 +127,7 @@ it('says why the work as ridden is not known', () => {
   const motor_work_wh = { recorded: null, replayed: 6, difference: null }
 
   expect(whyNoWork(replay())).toBeNull()
-  expect(whyNoWork(asked())).toBe('demanded')
+  expect(whyNoWork(demandOnly())).toBe('demanded')
   expect(whyNoWork(replay({ motor_work_wh }))).toBe('speed')
   expect(whyNoWork(replay({ motor_work_wh, motor_torque_meaning: null }))).toBe('torque')
 })

@@ -1,29 +1,30 @@
-// A replay as the page tells it: its curves, its figures, and why one is missing.
+// A replay as the page shows it: its curves, its figures, and why one is missing.
 import { seriesOf, type Series } from '$shared/api/series'
 import type { Replay } from '$shared/api/types'
 import type { TraceLine, TraceRow } from '$shared/charts/traces/trace_line'
 
 const TORQUE = 'motor_torque_nm'
-const ASKED = 'motor_torque_demanded_nm'
+const DEMANDED = 'motor_torque_demanded_nm'
 const GAIN = 'fuzzy_gain'
 const REPLAYED = 'replayed_'
 
-/** Whether the record tells only what was asked of the motor. */
-const isAsked = (replay: Replay) => replay.motor_torque_meaning === 'demanded'
+/** Whether the record has only the demanded motor torque. */
+const isDemandOnly = (replay: Replay) => replay.motor_torque_meaning === 'demanded'
 
-/** The motor torque that is compared: what it gave, or what was asked where only that is known. */
-export const comparedTorque = (replay: Replay) => (isAsked(replay) ? ASKED : TORQUE)
+/** The motor torque that is compared: the delivered one, or the demanded one where only that is
+    recorded. */
+export const comparedTorque = (replay: Replay) => (isDemandOnly(replay) ? DEMANDED : TORQUE)
 
-/** The curves that are drawn, recorded and replayed; a torque that was asked is called so. */
+/** The curves that are drawn, recorded and replayed; a demanded torque is called so. */
 export function drawnSeries(replay: Replay): Series {
   const series = seriesOf(replay.series)
   const has = (name: string) => series.channels.some((channel) => channel.name === name)
-  // Firmware of before knew one motor torque, and it was what it asked for.
-  const is_asked = (name: string) => name === TORQUE && isAsked(replay) && !has(ASKED)
+  // Earlier firmware has one motor torque, the demanded one.
+  const is_demand = (name: string) => name === TORQUE && isDemandOnly(replay) && !has(DEMANDED)
   const torque = comparedTorque(replay)
   const shown = [torque, REPLAYED + torque, GAIN, REPLAYED + GAIN]
   const channels = series.channels
-    .map((channel) => ({ ...channel, name: is_asked(channel.name) ? ASKED : channel.name }))
+    .map((channel) => ({ ...channel, name: is_demand(channel.name) ? DEMANDED : channel.name }))
     .filter(({ name }) => shown.includes(name))
   return { ...series, channels }
 }
@@ -34,28 +35,28 @@ export function drawnRows(replay: Replay, series: Series): TraceRow[] {
   const lines = (channel: string, token: string) =>
     (
       [
-        { channel, token: 'line-strong', name: 'as_ridden', look: 'broad' },
-        { channel: REPLAYED + channel, token, name: 'open_loop', look: 'dashed' },
+        { channel, token: 'line-strong', name: 'as_ridden', style: 'broad' },
+        { channel: REPLAYED + channel, token, name: 'open_loop', style: 'dashed' },
       ] satisfies TraceLine[]
     ).filter((line) => largest(series, line.channel) !== null)
-  const key = isAsked(replay) ? 'torque_asked' : 'torque_given'
+  const key = isDemandOnly(replay) ? 'torque_demanded' : 'torque_delivered'
   return [
     { key, unit: 'Nm', lines: lines(comparedTorque(replay), 'motor') },
     { key: 'gain', unit: '', lines: lines(GAIN, 'gain') },
   ].filter((row) => row.lines.length > 0)
 }
 
-/** The largest value of a channel: the bins of a series keep every extreme. */
+/** The largest value of a channel: the bins of a series retain every extreme. */
 export function largest(series: Series, name: string): number | null {
   const channel = series.channels.find((c) => c.name === name)
-  const there = channel?.max.filter((value) => !Number.isNaN(value))
-  return there?.length ? there.reduce((a, b) => Math.max(a, b)) : null
+  const valid = channel?.max.filter((value) => !Number.isNaN(value))
+  return valid?.length ? valid.reduce((a, b) => Math.max(a, b)) : null
 }
 
 /** Why the work as ridden is not known; null where it is. */
 export function whyNoWork(replay: Replay): 'demanded' | 'torque' | 'speed' | null {
   if (replay.motor_work_wh.recorded !== null) return null
-  if (isAsked(replay)) return 'demanded'
+  if (isDemandOnly(replay)) return 'demanded'
   return replay.motor_torque_meaning === null ? 'torque' : 'speed'
 }
 
@@ -65,7 +66,7 @@ export interface FigureRow {
     | 'wh_per_km'
     | 'motor_work_wh'
     | 'torque_nm'
-    | 'asked_nm'
+    | 'demanded_nm'
     | 'motor_power_w_mean'
     | 'ripple_nm_per_s'
   unit: string
@@ -90,13 +91,13 @@ export function figureRows(replay: Replay, series: Series): FigureRow[] {
   return [
     row('wh_per_km', 'Wh/km', replay.wh_per_km),
     row('motor_work_wh', 'Wh', replay.motor_work_wh),
-    row(isAsked(replay) ? 'asked_nm' : 'torque_nm', 'Nm', most),
+    row(isDemandOnly(replay) ? 'demanded_nm' : 'torque_nm', 'Nm', most),
     row('motor_power_w_mean', 'W', replay.motor_power_w_mean, 0),
     row('ripple_nm_per_s', 'Nm/s', replay.ripple_nm_per_s),
   ]
 }
 
-/** A limit that held the motor back, as shares of the time, 0 to 1. */
+/** A limit that reduced the motor's torque, as shares of the time, 0 to 1. */
 export interface LimitRow {
   name: string
   recorded: number | null

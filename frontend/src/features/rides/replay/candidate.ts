@@ -44,10 +44,10 @@ export function settingsOf(
   if (!hasTables(draft)) return null
   const edited = candidate === 'draft'
   if (edited && draft.changes.some((c) => faultsOf(c.parameter, c.value).length > 0)) return null
-  const held = draft.parameters.map(
+  const entries = draft.parameters.map(
     ({ name }) => [name, edited ? draft.value(name) : draft.base(name)] as const,
   )
-  return Object.fromEntries(held.filter(([, value]) => value !== undefined)) as Settings
+  return Object.fromEntries(entries.filter(([, value]) => value !== undefined)) as Settings
 }
 
 /** A mass of rider and bike that a twin can have; null for another. */

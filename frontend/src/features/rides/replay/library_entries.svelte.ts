@@ -6,40 +6,40 @@ import type { Settings } from './candidate'
 
 export class LibraryEntries {
   rows = $state.raw<LibraryRow[]>([])
-  trouble = $state.raw<Refusal | null>(null)
-  private known = $state.raw<Record<string, Settings>>({})
+  problem = $state.raw<Refusal | null>(null)
+  private loaded = $state.raw<Record<string, Settings>>({})
 
   constructor(private readonly server: Server) {}
 
   /** Fetches the names. A library that cannot be had leaves the other candidates. */
   async load(): Promise<void> {
-    await this.noting(async () => {
+    await this.guarded(async () => {
       this.rows = await this.server.library()
     })
   }
 
   /** Fetches an entry, once. */
   async fetch(id: string): Promise<void> {
-    if (id in this.known) return
-    await this.noting(async () => {
+    if (id in this.loaded) return
+    await this.guarded(async () => {
       const { parameters } = await this.server.libraryEntry(id)
       const values = Object.entries(parameters).map(([name, { value }]) => [name, value])
-      this.known = { ...this.known, [id]: Object.fromEntries(values) as Settings }
+      this.loaded = { ...this.loaded, [id]: Object.fromEntries(values) as Settings }
     })
   }
 
   /** The settings of an entry that was fetched; null until then. */
   settings(id: string | null): Settings | null {
-    return (id !== null && this.known[id]) || null
+    return (id !== null && this.loaded[id]) || null
   }
 
-  private async noting(ask: () => Promise<void>): Promise<void> {
-    this.trouble = null
+  private async guarded(action: () => Promise<void>): Promise<void> {
+    this.problem = null
     try {
-      await ask()
+      await action()
     } catch (error) {
       if (!(error instanceof Refusal)) throw error
-      this.trouble = error
+      this.problem = error
     }
   }
 }

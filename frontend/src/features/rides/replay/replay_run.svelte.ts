@@ -18,8 +18,8 @@ export class ReplayRun {
 
   constructor(private readonly server: Server) {}
 
-  ask(ride_id: number, parameters: Settings): Promise<void> {
-    return this.newest.ask(async (signal) => {
+  request(ride_id: number, parameters: Settings): Promise<void> {
+    return this.newest.request(async (signal) => {
       const replay = await this.server.replay(ride_id, { mode: 'open_loop', parameters }, signal)
       signal.throwIfAborted()
       return this.seen(replay)
@@ -29,7 +29,7 @@ export class ReplayRun {
   private seen(replay: Replay): Answered {
     const series = drawnSeries(replay)
     // The same stretch of the same ride stays in view, so that two candidates can be compared.
-    const before = this.newest.answer
+    const before = this.newest.value
     const view =
       before?.replay.ride_id === replay.ride_id ? before.view : new TraceWindow(replay.duration_s)
     view.series = series

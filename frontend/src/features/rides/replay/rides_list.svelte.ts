@@ -9,7 +9,7 @@ export class RidesToTry {
   loaded = $state(false)
   /** Of the next page of rides; null behind the last. */
   next = $state<string | null>(null)
-  trouble = $state.raw<Refusal | null>(null)
+  problem = $state.raw<Refusal | null>(null)
 
   constructor(private readonly server: Server) {}
 
@@ -29,17 +29,17 @@ export class RidesToTry {
   }
 
   private add(rides: Ride[]): void {
-    const others = this.items.filter((known) => !rides.some((ride) => ride.id === known.id))
+    const others = this.items.filter((one) => !rides.some((ride) => ride.id === one.id))
     const all = [...others, ...rides]
     this.items = all.sort((a, b) => b.started_at.localeCompare(a.started_at))
   }
 
-  private async fetch(ask: () => Promise<void>): Promise<void> {
+  private async fetch(load: () => Promise<void>): Promise<void> {
     try {
-      await ask()
+      await load()
     } catch (error) {
       if (!(error instanceof Refusal)) throw error
-      this.trouble = error
+      this.problem = error
     }
   }
 }

@@ -1,7 +1,16 @@
 // Goal: three rides are drawn where they were, gaps open, and compared place by place.
 import { expect, test } from 'vitest'
 import type { RideCurves } from '$shared/api/types'
-import { along, barPath, difference, endOf, linePath, nearest, Scale, topOf } from './road_curves'
+import {
+  barPath,
+  difference,
+  endOf,
+  linePath,
+  nearest,
+  positionsOf,
+  Scale,
+  topOf,
+} from './road_curves'
 
 const ride = (t_s: (number | null)[], nm: (number | null)[]) => ({
   t_s,
@@ -16,8 +25,8 @@ const CURVES: RideCurves = {
 }
 
 test('a ride lies over the distance, or over its own time', () => {
-  expect(along(CURVES, 'replayed', 'km')).toEqual([0.1, 0.2, 0.3])
-  expect(along(CURVES, 'replayed', 'time')).toEqual([12, 24, 40])
+  expect(positionsOf(CURVES, 'replayed', 'km')).toEqual([0.1, 0.2, 0.3])
+  expect(positionsOf(CURVES, 'replayed', 'time')).toEqual([12, 24, 40])
   expect([endOf(CURVES, 'km'), endOf(CURVES, 'time')]).toEqual([0.3, 40])
   expect(topOf(CURVES, 'motor_torque_nm')).toBe(0.5)
 })

@@ -4,7 +4,7 @@ import { niceStep } from '$shared/charts/plot_axis'
 
 export const RIDES = ['recorded', 'unchanged', 'replayed'] as const
 export type RideName = (typeof RIDES)[number]
-export type Along = 'km' | 'time'
+export type RoadAxis = 'km' | 'time'
 export type Channel = 'motor_torque_nm' | 'speed_kmh'
 type Numbers = readonly (number | null)[]
 
@@ -35,13 +35,13 @@ export class Scale {
 }
 
 /** Where a ride's points lie along the picture: km, or seconds since its own start. */
-export function along(curves: RideCurves, ride: RideName, by: Along): Numbers {
+export function positionsOf(curves: RideCurves, ride: RideName, by: RoadAxis): Numbers {
   return by === 'km' ? curves.distance_km : curves[ride].t_s
 }
 
 /** The end of the picture: of the longest ride by time. */
-export function endOf(curves: RideCurves, by: Along): number {
-  const ends = RIDES.flatMap((ride) => along(curves, ride, by).filter((v) => v !== null))
+export function endOf(curves: RideCurves, by: RoadAxis): number {
+  const ends = RIDES.flatMap((ride) => positionsOf(curves, ride, by).filter((v) => v !== null))
   return Math.max(1e-9, ...ends)
 }
 

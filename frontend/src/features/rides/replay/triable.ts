@@ -1,5 +1,5 @@
 // Which rides can be tried. The server decides; this is so that a list offers no other. The same is
-// asked in backend/rides/replay/service.py.
+// checked in backend/rides/replay/service.py.
 import type { Ride } from '$shared/api/types'
 
 const NEEDED = ['speed_kmh', 'cadence_rpm', 'assist_mode']

@@ -1,5 +1,5 @@
 // @vitest-environment happy-dom
-/* Goal: a ride is told by eight figures, and one that is missing says why. */
+/* Goal: a ride is summarised by eight figures, and one that is missing says why. */
 import { expect, it } from 'vitest'
 import type { Ride } from '$shared/api/types'
 import { Locale, fill } from '$shared/i18n/locale.svelte'
@@ -17,13 +17,13 @@ const ride = (channels: string[], summary: object, meaning: string | null = null
     summary: { duration_s: 600, ...summary },
     motor_torque_meaning: meaning,
   }) as unknown as Ride
-const told = (one: Ride) =>
+const figuresOf = (one: Ride) =>
   Object.fromEntries(
     headline(one, null, speech).map(({ name, value, note }) => [name, { value, note }]),
   )
 
 it('gives the ratio of two energies and never their sum', () => {
-  const figures = told(ride([], { rider_wh: 40, motor_wh: 30 }))
+  const figures = figuresOf(ride([], { rider_wh: 40, motor_wh: 30 }))
 
   expect(figures['your_energy']?.value).toEqual(['40.0', 'Wh'])
   expect(figures['motor_energy']?.value).toEqual(['30.0', 'Wh'])
@@ -38,13 +38,14 @@ it('has a reason for each of eight figures of a ride with a heart rate only', ()
   expect(figures.every(({ note }) => note !== '' && !note.includes('—'))).toBe(true)
 })
 
-it('tells a motor torque that was only asked for from one that nobody recorded', () => {
-  expect(told(ride([], {}, 'demanded'))['motor_energy']?.note).toBe('only requested, not measured')
-  expect(told(ride([], {}))['motor_energy']?.note).toBe('no motor power recorded')
+it('distinguishes a motor torque that was only demanded from one that was not recorded', () => {
+  const demanded = figuresOf(ride([], {}, 'demanded'))
+  expect(demanded['motor_energy']?.note).toBe('only requested, not measured')
+  expect(figuresOf(ride([], {}))['motor_energy']?.note).toBe('no motor power recorded')
 })
 
 it('spreads what the battery gave over the way', () => {
-  const figures = told(ride([], { battery_wh: 50, distance_km: 10, battery_soc_pct_used: 9 }))
+  const figures = figuresOf(ride([], { battery_wh: 50, distance_km: 10, battery_soc_pct_used: 9 }))
 
   expect(figures['from_battery']?.note.replaceAll('\u00a0', ' ')).toBe(
     '9 % of its charge, 5.00 Wh/km',

@@ -1,4 +1,4 @@
-// The eight figures a ride is told by. A figure that is missing is a dash with its reason.
+// The eight figures that summarise a ride. A figure that is missing is a dash with its reason.
 import type { Ride, RideEnergy } from '$shared/api/types'
 import type { Locale } from '$shared/i18n/locale.svelte'
 import type { Units } from '$shared/units/units.svelte'
@@ -7,7 +7,7 @@ import type { Key, Say } from './words'
 export interface Figure {
   name: Key
   token?: 'rider' | 'motor' | 'battery'
-  /** Number and unit; null where the ride does not tell it. */
+  /** Number and unit; null where the ride has none. */
   value: [number: string, unit: string] | null
   /** What it rests on, or why it is missing. */
   note: string
@@ -30,22 +30,22 @@ export function headline(
   const has = (name: string) => ride.channels.some((channel) => channel.name === name)
   const figure = (value: number | null | undefined, unit: string): Figure['value'] =>
     value == null ? null : [units.number(value, unit), units.label(unit)]
-  const told = (value: unknown, note: string, missing: Key) =>
+  const hint = (value: unknown, note: string, missing: Key) =>
     value == null ? say(missing) : note
   const meanTop = (mean: number | null | undefined, top: number | null | undefined) =>
     say('mean_top', { mean: units.text(mean, 'W'), top: units.text(top, 'W') })
-  const motorless = ride.motor_torque_meaning === 'demanded' ? 'not_asked' : 'none_motor'
+  const motorless = ride.motor_torque_meaning === 'demanded' ? 'demand_only' : 'none_motor'
   const ratio = s?.rider_wh && s.motor_wh != null ? s.motor_wh / s.rider_wh : null
   return [
     {
       name: 'distance',
       value: figure(s?.distance_km, 'km'),
-      note: told(s?.distance_km, say(has('distance_m') ? 'odometer' : 'from_speed'), 'none_speed'),
+      note: hint(s?.distance_km, say(has('distance_m') ? 'odometer' : 'from_speed'), 'none_speed'),
     },
     {
       name: 'moving',
       value: s?.moving_s == null ? null : [locale.duration(s.moving_s), ''],
-      note: told(
+      note: hint(
         s?.moving_s,
         say('of_time', { time: locale.duration(s?.duration_s) }),
         'none_speed',
@@ -54,7 +54,7 @@ export function headline(
     {
       name: 'mean_speed',
       value: figure(s?.speed_kmh_mean, 'km/h'),
-      note: told(
+      note: hint(
         s?.speed_kmh_mean,
         say('top', { value: units.text(s?.speed_kmh_max, 'km/h') }),
         has('speed_kmh') ? 'none_moving' : 'none_speed',
@@ -69,24 +69,24 @@ export function headline(
       name: 'your_energy',
       token: 'rider',
       value: figure(s?.rider_wh, 'Wh'),
-      note: told(s?.rider_wh, meanTop(s?.rider_power_w_mean, s?.rider_power_w_max), 'none_rider'),
+      note: hint(s?.rider_wh, meanTop(s?.rider_power_w_mean, s?.rider_power_w_max), 'none_rider'),
     },
     {
       name: 'motor_energy',
       token: 'motor',
       value: figure(s?.motor_wh, 'Wh'),
-      note: told(s?.motor_wh, meanTop(s?.motor_power_w_mean, s?.motor_power_w_max), motorless),
+      note: hint(s?.motor_wh, meanTop(s?.motor_power_w_mean, s?.motor_power_w_max), motorless),
     },
     {
       name: 'from_battery',
       token: 'battery',
       value: figure(s?.battery_wh, 'Wh'),
-      note: told(s?.battery_wh, batteryNote(ride, { say, locale, units }), 'none_battery'),
+      note: hint(s?.battery_wh, batteryNote(ride, { say, locale, units }), 'none_battery'),
     },
     {
       name: 'per_yours',
       value: ratio === null ? null : [locale.number(ratio, 2), ''],
-      note: told(ratio, say('wh_for_each'), 'none_ratio'),
+      note: hint(ratio, say('wh_for_each'), 'none_ratio'),
     },
   ]
 }

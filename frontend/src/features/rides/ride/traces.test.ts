@@ -1,20 +1,21 @@
-/* Goal: a ride shows the channels it has, and says what it lacks or was only asked of the motor. */
+/* Goal: a ride shows the channels it has, and says what it lacks and what was only demanded of the
+   motor. */
 import { expect, it } from 'vitest'
 import type { Ride } from '$shared/api/types'
 import { Locale } from '$shared/i18n/locale.svelte'
 import { rowName, rowsFor, rowsOf } from './traces'
 
-it('draws what was asked of the motor behind what it gave', () => {
+it('draws the demanded torque behind the delivered one', () => {
   const { shown } = rowsFor(
     ['motor_torque_crank_nm', 'motor_torque_demanded_crank_nm'],
     'delivered',
   )
 
   expect(shown.map((row) => row.key)).toEqual(['motor_torque_crank'])
-  expect(shown[0]?.lines.map((line) => line.name)).toEqual(['motor_asked', 'motor_given'])
+  expect(shown[0]?.lines.map((line) => line.name)).toEqual(['motor_demanded', 'motor_delivered'])
 })
 
-it('calls a motor torque asked where nobody measured it', () => {
+it('calls a motor torque demanded where it was not measured', () => {
   const { shown } = rowsFor(['motor_torque_crank_nm'], 'demanded')
 
   expect(shown.map((row) => row.key)).toEqual(['motor_torque_crank_asked'])

@@ -3,8 +3,8 @@ import type { Ride } from '$shared/api/types'
 import type { TraceRow } from '$shared/charts/traces/trace_line'
 import type { Locale } from '$shared/i18n/locale.svelte'
 
-// Each row shows the first of its alternatives that the ride has. What a unit asked of its motor is
-// drawn behind what the motor gave.
+// Each row shows the first of its alternatives that the ride has. What a unit demanded of its motor
+// is drawn behind what the motor gave.
 const rows: (TraceRow & { instead?: TraceRow })[] = [
   { key: 'speed', unit: 'km/h', lines: [{ channel: 'speed_kmh', token: 'speed' }] },
   { key: 'rider_torque', unit: 'Nm', lines: [{ channel: 'rider_torque_nm', token: 'rider' }] },
@@ -12,15 +12,15 @@ const rows: (TraceRow & { instead?: TraceRow })[] = [
     key: 'motor_torque_crank',
     unit: 'Nm',
     lines: [
-      { channel: 'motor_torque_demanded_crank_nm', token: 'motor-faint', name: 'motor_asked' },
-      { channel: 'motor_torque_crank_nm', token: 'motor', name: 'motor_given' },
+      { channel: 'motor_torque_demanded_crank_nm', token: 'motor-faint', name: 'motor_demanded' },
+      { channel: 'motor_torque_crank_nm', token: 'motor', name: 'motor_delivered' },
     ],
     instead: {
       key: 'motor_torque',
       unit: 'Nm',
       lines: [
-        { channel: 'motor_torque_demanded_nm', token: 'motor-faint', name: 'motor_asked' },
-        { channel: 'motor_torque_nm', token: 'motor', name: 'motor_given' },
+        { channel: 'motor_torque_demanded_nm', token: 'motor-faint', name: 'motor_demanded' },
+        { channel: 'motor_torque_nm', token: 'motor', name: 'motor_delivered' },
       ],
     },
   },
@@ -40,7 +40,7 @@ const rows: (TraceRow & { instead?: TraceRow })[] = [
 const expected = ['speed', 'rider_torque', 'motor_torque_crank', 'power', 'gain']
 
 /** The rows a ride with these channels can show, and the expected ones it cannot. A motor torque
-    that was only asked for has a row that says so. */
+    that was only demanded has a row that says so. */
 export function rowsFor(
   channels: string[],
   meaning: Ride['motor_torque_meaning'] = null,
@@ -53,8 +53,8 @@ export function rowsFor(
   const shown: TraceRow[] = []
   const missing: string[] = []
   for (const row of rows) {
-    const found = [row, row.instead].flatMap((r) => (r ? [has(r)] : [])).find((r) => r.lines.length)
-    if (found) shown.push(found)
+    const match = [row, row.instead].flatMap((r) => (r ? [has(r)] : [])).find((r) => r.lines.length)
+    if (match) shown.push(match)
     else if (expected.includes(row.key)) missing.push(row.key)
   }
   return { shown, missing }

@@ -3,24 +3,24 @@ import type { ComparedSide, LibraryDocument, Parameter, ParameterValue } from '$
 import type { ConfigDraft } from '$shared/config/config_draft.svelte'
 import { PARAMETERS_OF, tableOf, type TableName } from '$shared/config/two_tables'
 
-/** What of the draft is kept: one of its tables, or all of it. */
-export type Kept = TableName | 'configuration'
+/** What of the draft is saved: one of its tables, or all of it. */
+export type SavedPart = TableName | 'configuration'
 
-/** The draft as a document; only what its unit tells is in it, and nothing that stays with a unit.
-    A table is kept by the names of the first one, whichever of the two it was. */
-export function documentOf(draft: ConfigDraft, name: string, what: Kept): LibraryDocument {
-  const whole = what === 'configuration'
-  const from = Object.entries(PARAMETERS_OF[whole ? 'first' : what])
+/** The draft as a document; only what its unit has is in it, and nothing that stays with a unit.
+    A table is saved under the names of the first one, whichever of the two it was. */
+export function documentOf(draft: ConfigDraft, name: string, what: SavedPart): LibraryDocument {
+  const is_configuration = what === 'configuration'
+  const from = Object.entries(PARAMETERS_OF[is_configuration ? 'first' : what])
   const to: Record<string, string> = PARAMETERS_OF.first
   const called = new Map(from.map(([role, own]) => [own, to[role] ?? own]))
-  const kept = (parameter: Parameter) =>
-    whole ? !parameter.of_the_unit : called.has(parameter.name)
-  const parameters = draft.parameters.filter(kept).flatMap(({ name, unit }) => {
+  const isSaved = (parameter: Parameter) =>
+    is_configuration ? !parameter.of_the_unit : called.has(parameter.name)
+  const parameters = draft.parameters.filter(isSaved).flatMap(({ name, unit }) => {
     const value = draft.value(name)
     const entry = { value: value as ParameterValue, unit, comment: '' }
     return value === undefined ? [] : [[called.get(name) ?? name, entry] as const]
   })
-  const kind = whole ? 'configuration' : 'table'
+  const kind = is_configuration ? 'configuration' : 'table'
   return {
     format: `spindle-${kind}`,
     version: 1,
@@ -37,9 +37,9 @@ export function documentOf(draft: ConfigDraft, name: string, what: Kept): Librar
 export function openIn(draft: ConfigDraft, values: Record<string, ParameterValue>): string[] {
   const left_out: string[] = []
   for (const [name, value] of Object.entries(values)) {
-    const known = draft.parameter(name)
-    if (!known || known.access === 'factory') continue
-    if (!known.of_the_unit) draft.set(name, value, 'library')
+    const parameter = draft.parameter(name)
+    if (!parameter || parameter.access === 'factory') continue
+    if (!parameter.of_the_unit) draft.set(name, value, 'library')
     else if (JSON.stringify(value) !== JSON.stringify(draft.base(name))) left_out.push(name)
   }
   return left_out

@@ -11,7 +11,7 @@ import type {
 
 export class Entries {
   rows = $state.raw<LibraryRow[] | null>(null)
-  trouble = $state.raw<Refusal | null>(null)
+  problem = $state.raw<Refusal | null>(null)
   /** By ETag, so that a changed entry is measured anew; null for one that cannot be. */
   feels = $state.raw<Record<string, Feel | null>>({})
   private measuring = false
@@ -21,10 +21,10 @@ export class Entries {
   async load(): Promise<void> {
     try {
       this.rows = await this.server.library()
-      this.trouble = null
+      this.problem = null
     } catch (error) {
       if (!(error instanceof Refusal)) throw error
-      this.trouble = error
+      this.problem = error
     }
     void this.measure()
   }
@@ -45,7 +45,7 @@ export class Entries {
     }
   }
 
-  /** Keeps a document. Throws Refusal. */
+  /** Saves a document. Throws Refusal. */
   async add(document: LibraryDocument): Promise<LibraryRow> {
     const row = await this.server.addToLibrary(document)
     await this.load()
@@ -82,7 +82,7 @@ export class Entries {
     await this.load()
   }
 
-  /** Keeps what a file holds; with a .fis file what was read of it. Throws Refusal, SyntaxError. */
+  /** Saves what a file holds; with a .fis file what was read of it. Throws Refusal, SyntaxError. */
   async take(file: File): Promise<[LibraryRow, ReadFis | null]> {
     const text = await file.text()
     if (!/\.fis$/i.test(file.name)) {

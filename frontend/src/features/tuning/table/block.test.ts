@@ -1,4 +1,4 @@
-/* Goal: what is done to a block of rules is a sum in gain, told in the labels nearest to it.
+/* Goal: what is done to a block of rules is computed in gain and given in the nearest labels.
 
 Expected labels are worked out by hand from the peaks 0.1, 0.2, 0.3, 0.4, 0.5. */
 import { expect, it } from 'vitest'
@@ -8,7 +8,7 @@ import { blockOf, type Rules } from './table'
 const GAINS = [0.1, 0.2, 0.3, 0.4, 0.5]
 const all = (label: Rules[number][number]): Rules =>
   Array.from({ length: 5 }, () => Array(5).fill(label))
-const WHOLE = blockOf({ row: 0, column: 0 }, { row: 4, column: 4 })
+const ALL_RULES = blockOf({ row: 0, column: 0 }, { row: 4, column: 4 })
 const with_ = (rules: Rules, ...cells: [number, number, Rules[number][number]][]) =>
   rules.map((row, r) =>
     row.map((old, c) => cells.find(([at, on]) => at === r && on === c)?.[2] ?? old),
@@ -32,8 +32,8 @@ it('levels a block at its mean and leaves the rest', () => {
 })
 
 it('scales the gain, and says so where no label is nearer', () => {
-  expect(scaled(all('ZO'), WHOLE, GAINS, 1.34)).toEqual(all('PS')) // 0.402
-  expect(moved(all('ZO'), scaled(all('ZO'), WHOLE, GAINS, 1.1))).toBe(0) // 0.33 is ZO still
+  expect(scaled(all('ZO'), ALL_RULES, GAINS, 1.34)).toEqual(all('PS')) // 0.402
+  expect(moved(all('ZO'), scaled(all('ZO'), ALL_RULES, GAINS, 1.1))).toBe(0) // 0.33 is ZO still
 })
 
 it('draws a line through the ends of a row and a plane through four corners', () => {
@@ -42,7 +42,7 @@ it('draws a line through the ends of a row and a plane through four corners', ()
   expect(interpolated(row, line, GAINS)[2]).toEqual(['NB', 'NS', 'ZO', 'PS', 'PB'])
 
   const corners = with_(all('PB'), [0, 0, 'NB'], [0, 4, 'ZO'], [4, 0, 'ZO'], [4, 4, 'PB'])
-  const plane = interpolated(corners, WHOLE, GAINS)
+  const plane = interpolated(corners, ALL_RULES, GAINS)
   // 0.2, 0.25, 0.3, 0.35, 0.4; what lies between two labels stays nearer to the PB it was.
   expect(plane[2]).toEqual(['NS', 'ZO', 'ZO', 'PS', 'PS'])
   expect(plane.map((cells) => cells[2])).toEqual(['NS', 'ZO', 'ZO', 'PS', 'PS'])
@@ -55,5 +55,5 @@ it('smooths a spike into its neighbours and leaves a slope alone', () => {
   expect(smoothed(spike, one, GAINS)).toEqual(with_(all('NB'), [2, 2, 'NS']))
 
   const slope: Rules = Array.from({ length: 5 }, () => ['NB', 'NS', 'ZO', 'PS', 'PB'])
-  expect(smoothed(slope, WHOLE, GAINS)).toEqual(slope)
+  expect(smoothed(slope, ALL_RULES, GAINS)).toEqual(slope)
 })

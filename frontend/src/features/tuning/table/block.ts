@@ -18,9 +18,9 @@ export function nearestLabel(gains: readonly number[], gain: number, old: RuleLa
 
 type GainAt = (gain: number, row: number, column: number) => number
 
-function mapGain(rules: Rules, block: Block, gains: readonly number[], wanted: GainAt): Rules {
+function mapGain(rules: Rules, block: Block, gains: readonly number[], target: GainAt): Rules {
   return mapBlock(rules, block, (label, row, column) =>
-    nearestLabel(gains, wanted(gainOf(gains, label), row, column), label),
+    nearestLabel(gains, target(gainOf(gains, label), row, column), label),
   )
 }
 
@@ -53,8 +53,8 @@ export function interpolated(rules: Rules, block: Block, gains: readonly number[
     to > from ? (place - from) / (to - from) : 0
   return mapGain(rules, block, gains, (_, row, column) => {
     const [down, over] = [share(row, top, bottom), share(column, left, right)]
-    const along = (edge: number) => at(edge, left) * (1 - over) + at(edge, right) * over
-    return along(top) * (1 - down) + along(bottom) * down
+    const edgeValue = (edge: number) => at(edge, left) * (1 - over) + at(edge, right) * over
+    return edgeValue(top) * (1 - down) + edgeValue(bottom) * down
   })
 }
 

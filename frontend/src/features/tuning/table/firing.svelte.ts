@@ -7,34 +7,32 @@ const PACE_MS = 200 // an eye follows no more
 
 export class Firing {
   private readonly newest = new NewestAnswer<Why>()
-  private asked_ms = -Infinity
-  private timer: ReturnType<typeof setTimeout> | null = null
+  private last_ms = -Infinity
+  private timer: ReturnType<typeof setTimeout> | undefined
 
   constructor(private readonly server: Server) {}
 
   /** Weight of a rule, 0 to 1. */
   weight(row: number, column: number): number {
-    const rule = this.newest.answer?.rules.find((one) => one.row === row && one.column === column)
+    const rule = this.newest.value?.rules.find((one) => one.row === row && one.column === column)
     return rule?.weight ?? 0
   }
 
-  /** The place that the bike is at, with the tables as edited; null where nobody knows. */
-  ask(state: WhyRequest | null): void {
-    if (this.timer) clearTimeout(this.timer)
+  /** The place that the bike is at, with the tables as edited; null where unknown. */
+  request(state: WhyRequest | null): void {
+    clearTimeout(this.timer)
     if (!state) {
-      this.newest.stop()
-      this.newest.answer = null
+      this.newest.forget()
       return
     }
-    const wait_ms = this.asked_ms + PACE_MS - performance.now()
     this.timer = setTimeout(() => {
-      this.asked_ms = performance.now()
-      void this.newest.ask((signal) => this.server.whySteady(null, state, signal))
-    }, Math.max(0, wait_ms))
+      this.last_ms = performance.now()
+      void this.newest.request((signal) => this.server.whySteady(null, state, signal))
+    }, this.last_ms + PACE_MS - performance.now())
   }
 
   stop(): void {
-    if (this.timer) clearTimeout(this.timer)
+    clearTimeout(this.timer)
     this.newest.stop()
   }
 }

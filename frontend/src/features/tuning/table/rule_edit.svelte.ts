@@ -21,7 +21,7 @@ const KEYS: Record<string, (edit: RuleEdit) => void> = {
 }
 
 export class RuleEdit {
-  /** A factor is being asked for. */
+  /** The dialog for a factor is open. */
   scaling = $state(false)
   /** How many rules the last sum over the chosen ones moved; null once something else was done. */
   moved = $state<number | null>(null)

@@ -29,12 +29,12 @@ it('takes numbers and lower case as labels too', () => {
 })
 
 it('refuses a block that does not fit instead of cutting it', () => {
-  expect(pasteText(all('ZO'), { row: 4, column: 4 }, 'NB\tNB')).toEqual({ trouble: 'too_large' })
+  expect(pasteText(all('ZO'), { row: 4, column: 4 }, 'NB\tNB')).toEqual({ problem: 'too_large' })
 })
 
 it('refuses words that are no labels', () => {
   expect(pasteText(all('ZO'), { row: 0, column: 0 }, 'NB\thello')).toEqual({
-    trouble: 'not_labels',
+    problem: 'not_labels',
   })
 })
 

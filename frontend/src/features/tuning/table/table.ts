@@ -70,15 +70,15 @@ export function blockText(rules: Rules, block: Block): string {
     .join('\n')
 }
 
-export type Pasted = { rules: Rules } | { trouble: 'not_labels' | 'too_large' }
+export type Pasted = { rules: Rules } | { problem: 'not_labels' | 'too_large' }
 
 /** Tab-separated labels (or 1 to 5) laid into the rules from a cell on; all of it or none. */
 export function pasteText(rules: Rules, at: Cell, text: string): Pasted {
   const lines = text.replace(/\s+$/, '').split(/\r?\n/)
   const labels = lines.map((line) => line.split('\t').map(labelOf))
-  if (labels.some((line) => line.includes(null))) return { trouble: 'not_labels' }
+  if (labels.some((line) => line.includes(null))) return { problem: 'not_labels' }
   const width = Math.max(...labels.map((line) => line.length))
-  if (at.row + labels.length > 5 || at.column + width > 5) return { trouble: 'too_large' }
+  if (at.row + labels.length > 5 || at.column + width > 5) return { problem: 'too_large' }
   const next = rules.map((cells) => [...cells])
   labels.forEach((line, row) =>
     line.forEach((label, column) => {

@@ -1,4 +1,4 @@
-/* Goal: what rides say about a table is said in one true sentence, and a number is never rounded
+/* Goal: the use of a table is one true sentence, and a number is never rounded
    into nothing or into all of it. */
 import type { TableUse } from '$shared/api/types'
 import { Locale } from '$shared/i18n/locale.svelte'
@@ -39,36 +39,36 @@ function used(seconds: number[][], change: Partial<TableUse> = {}): TableUse {
 }
 
 const row = (...first: number[]) => [first, ...nothing().slice(1)]
-const said = (use: TableUse) => useSentence(locale, use, String)
+const sentence = (use: TableUse) => useSentence(locale, use, String)
 const without = (...codes: TableUse['rides_without'][number]['code'][]) =>
   codes.map((code, id) => ({ id, code, message: '' }))
 
-it('tells from which column on the table hardly acts', () => {
+it('says from which column on the table hardly acts', () => {
   expect(hardlyActing([0.9, 0.06, 0.02, 0.01, 0.01])).toEqual({ from: 3, share: 0.02 })
   expect(hardlyActing([0.5, 0.2, 0.1, 0.1, 0.1])).toBeNull()
   expect(hardlyActing([0.02, 0, 0, 0, 0.98])).toBeNull()
 
-  expect(said(used(row(900, 60, 20, 10, 10)))).toBe(
+  expect(sentence(used(row(900, 60, 20, 10, 10)))).toBe(
     'Columns right of 0.4 acted 2.0 % of the assisted time in your last 2 rides: changes there ' +
       'are hardly felt.',
   )
 })
 
 it('says so where columns never acted, and where all do', () => {
-  expect(said(used(row(900, 100, 0, 0, 0)))).toContain('right of 0.2 never acted')
-  expect(said(used(row(200, 200, 200, 200, 200)))).toContain('Every column acted 20 %')
+  expect(sentence(used(row(900, 100, 0, 0, 0)))).toContain('right of 0.2 never acted')
+  expect(sentence(used(row(200, 200, 200, 200, 200)))).toContain('Every column acted 20 %')
 })
 
 it('counts the rides it speaks of and those that say nothing', () => {
   const one = used(row(1, 1, 1, 1, 1), { rides: [3], rides_without: without('missing_channel') })
 
-  expect(said(one)).toContain('in your last ride.')
-  expect(said(one)).toContain('One more ride says nothing')
+  expect(sentence(one)).toContain('in your last ride.')
+  expect(sentence(one)).toContain('One more ride says nothing')
 })
 
-it('says why no ride tells anything, and what to do', () => {
+it('says why no ride has data, and what to do', () => {
   const silent = (...codes: Parameters<typeof without>) =>
-    said(used(nothing(), { rides: [], rides_without: without(...codes) }))
+    sentence(used(nothing(), { rides: [], rides_without: without(...codes) }))
 
   expect(silent()).toContain('ride with Spindle connected')
   expect(silent('missing_channel', 'missing_channel')).toContain('torque rate or mode is missing')
@@ -97,7 +97,7 @@ it('adds up the cells that are chosen', () => {
     .toContain('motor energy not known')
 })
 
-it('knows of no cell where no ride tells', () => {
+it('has no cell where no ride has data', () => {
   const nowhere = used(nothing(), { rides: [] })
   const corner = { top: 0, left: 0, bottom: 0, right: 0 }
 

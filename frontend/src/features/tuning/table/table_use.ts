@@ -75,7 +75,7 @@ export function blockSentence(locale: Locale, units: Units, use: TableUse | null
   })
 }
 
-/** The share of each cell; null where no ride tells. */
+/** The share of each cell; null where no ride has data. */
 export function cellShares(use: TableUse | null): number[][] | null {
   if (!use?.assisted_s) return null
   return use.cells.seconds.map((row) => row.map((seconds) => seconds / use.assisted_s))

@@ -1,10 +1,10 @@
-// A state that somebody asks about.
+// A state that the user sets.
 import type { Refusal } from '$shared/api/client'
 import { NewestAnswer } from '$shared/api/newest_answer.svelte'
 import type { Server } from '$shared/api/server'
 import type { Why, WhyRequest } from '$shared/api/types'
 
-const PACE_MS = 60 // a slider that is dragged asks this often at most
+const PACE_MS = 60 // a slider that is dragged sends requests at most this often
 
 export class SteadyState {
   private readonly newest = new NewestAnswer<Why>()
@@ -13,16 +13,16 @@ export class SteadyState {
   constructor(private readonly server: Server) {}
 
   /** device_id: whose configuration; null for the firmware's. */
-  ask(device_id: string | null, state: WhyRequest): void {
+  request(device_id: string | null, state: WhyRequest): void {
     if (this.timer) clearTimeout(this.timer)
     this.timer = setTimeout(
-      () => void this.newest.ask((signal) => this.server.whySteady(device_id, state, signal)),
+      () => void this.newest.request((signal) => this.server.whySteady(device_id, state, signal)),
       PACE_MS,
     )
   }
 
   get why(): Why | null {
-    return this.newest.answer
+    return this.newest.value
   }
 
   get refused(): Refusal | null {

@@ -1,13 +1,13 @@
 // @vitest-environment happy-dom
-/* Goal: the sentence and the waterfall tell what the steps say: who took how much, in the unit's
-   order, and what was not delivered or not measured is called so. Both languages have the same
-   words. */
+/* Goal: the sentence and the waterfall show what the steps contain: what took how much, in the
+   unit's order, and what was not delivered or not measured is called so. Both languages have the
+   same words. */
 import type { Why } from '$shared/api/types'
 import { Locale } from '$shared/i18n/locale.svelte'
 import { Units } from '$shared/units/units.svelte'
 import { expect, it } from 'vitest'
 import { gainShape } from './gain_shape'
-import { askedNm, rowValue, sentence, tableCannotHelp, takers, waterfall } from './steps'
+import { demandedNm, rowValue, sentence, tableCannotHelp, takers, waterfall } from './steps'
 import en from '$messages/en/why.json'
 import { words, type Key } from './words'
 import zh from '$messages/zh/why.json'
@@ -37,7 +37,7 @@ function why(changes: Partial<Why> = {}): Why {
     step('current_control', -0.1),
   ]
   return {
-    moment: { kind: 'ride', ride_id: 1, t_s: 516.2, held_s: null },
+    moment: { kind: 'ride', ride_id: 1, t_s: 516.2, hold_s: null },
     config_source: 'ride',
     engine: '',
     warmed_up_s: 516,
@@ -87,7 +87,7 @@ it('names the hardest clamp first, with its watts', () => {
   expect(tableCannotHelp(why())).toBe(true)
 })
 
-it('says what was told to the motor where nothing was measured', () => {
+it('says what the motor was commanded where nothing was measured', () => {
   const steady = why({ delivered_nm: null, steps: why().steps.slice(0, -1) })
 
   expect(sentence(steady, say, units)).toContain('the motor was commanded 75')
@@ -108,20 +108,20 @@ it.each([
     },
     'You got all that Boost requested: 20\u00a0Nm.',
   ],
-])('%o', (changes, told) => {
-  expect(sentence(why(changes), say, units)).toBe(told)
+])('%o', (changes, expected) => {
+  expect(sentence(why(changes), say, units)).toBe(expected)
 })
 
-it('puts what the law asks before the clamps, each bar where the one before ended', () => {
+it("puts the law's demand before the clamps, each bar where the one before ended", () => {
   const rows = waterfall(why())
 
   expect(rows.map(({ kind }) => kind).join(' ')).toBe(
-    'rider law law asked clamp clamp clamp clamp clamp clamp given',
+    'rider law law demanded clamp clamp clamp clamp clamp clamp delivered',
   )
-  expect(askedNm(why())).toBeCloseTo(119.4)
+  expect(demandedNm(why())).toBeCloseTo(119.4)
   for (const [i, row] of rows.entries()) {
     const before = rows[i - 1]
-    if (before && row.kind !== 'asked' && row.kind !== 'given') {
+    if (before && row.kind !== 'demanded' && row.kind !== 'delivered') {
       expect(row.from_nm).toBe(before.to_nm)
     }
   }
@@ -147,7 +147,7 @@ it('clips each set at the hardest of its rules', () => {
 })
 
 it('says the same with the same values in both languages', () => {
-  const holes = (text: string) => [...text.matchAll(/\{(\w+)\}/g)].map((found) => found[1]).sort()
+  const holes = (text: string) => [...text.matchAll(/\{(\w+)\}/g)].map((match) => match[1]).sort()
 
   for (const [key, text] of Object.entries(en)) {
     expect([key, holes(zh[key as Key])]).toEqual([key, holes(text)])

@@ -1,9 +1,9 @@
-// A control step as rows of a waterfall: what the law asked, what each clamp took, what is left.
+// A control step as rows of a waterfall: what the law demanded, what each clamp took, what is left.
 import type { Why } from '$shared/api/types'
 import type { Units } from '$shared/units/units.svelte'
 import type { Say, Key } from './words'
 
-export type Kind = 'rider' | 'law' | 'asked' | 'clamp' | 'given'
+export type Kind = 'rider' | 'law' | 'demanded' | 'clamp' | 'delivered'
 
 export interface Row {
   name: string
@@ -19,13 +19,13 @@ const LAW = ['rider_torque', 'mode_ratio', 'gain', 'taper', 'mode_off', 'walk_as
 /** Less than this is not worth a word. */
 const TELLING_NM = 0.05
 
-/** The steps in the unit's own order, with what the law asks before the clamps and what is left
+/** The steps in the unit's own order, with the law's demand before the clamps and what is left
     after them. */
 export function waterfall(why: Why): Row[] {
   const rows: Row[] = []
   const power = (torque_nm: number) =>
     why.crank_rad_per_s === null ? null : torque_nm * why.crank_rad_per_s
-  const whole = (name: string, kind: Kind, torque_nm: number) =>
+  const addTotal = (name: string, kind: Kind, torque_nm: number) =>
     rows.push({ name, kind, from_nm: 0, to_nm: torque_nm, torque_nm, power_w: power(torque_nm) })
   let at_nm = 0
   for (const [i, { name, torque_nm, power_w }] of why.steps.entries()) {
@@ -34,17 +34,19 @@ export function waterfall(why: Why): Row[] {
     rows.push({ name, kind, from_nm: at_nm, to_nm, torque_nm, power_w })
     at_nm = to_nm
     const next = why.steps[i + 1]
-    if (kind !== 'clamp' && next && !LAW.includes(next.name)) whole('asked', 'asked', at_nm)
+    if (kind !== 'clamp' && next && !LAW.includes(next.name)) {
+      addTotal('demanded', 'demanded', at_nm)
+    }
   }
   const delivered = why.delivered_nm
-  if (delivered === null) whole('commanded', 'given', why.commanded_nm)
-  else whole('delivered', 'given', delivered)
+  if (delivered === null) addTotal('commanded', 'delivered', why.commanded_nm)
+  else addTotal('delivered', 'delivered', delivered)
   return rows
 }
 
-/** What the law asked for, before anything was taken from it. */
-export function askedNm(why: Why): number {
-  return waterfall(why).find((row) => row.kind === 'asked')?.to_nm ?? 0
+/** The law's demand, before any limit. */
+export function demandedNm(why: Why): number {
+  return waterfall(why).find((row) => row.kind === 'demanded')?.to_nm ?? 0
 }
 
 /** The clamps that took torque, the hardest first. What the motor's own control misses is none. */
@@ -57,33 +59,34 @@ export function takers(why: Why): Row[] {
 
 const TABLE_BLIND = ['motor_torque', 'battery_current', 'temperature', 'back_emf', 'market']
 
-/** Whether what held back leaves nothing for a stronger table to add. */
+/** Whether the limits leave nothing for a stronger table to add. */
 export function tableCannotHelp(why: Why): boolean {
   const [hardest] = takers(why)
   return hardest !== undefined && TABLE_BLIND.includes(hardest.name)
 }
 
-/** The sentence that answers: how much was asked, how much came, and who took the rest. */
+/** The sentence that answers: how much was demanded, how much was delivered, and what took the
+    rest. */
 export function sentence(why: Why, say: Say, units: Units): string {
   if (why.result !== 'ok') return say(why.result === 'input_refused' ? 'refused' : 'lost')
   const mode = why.law === 'walk' ? say('walk') : named(why.mode_name)
   if (why.law === 'off') return say('off', { mode })
-  const asked_nm = askedNm(why)
-  if (asked_nm < TELLING_NM) return say('asked_nothing', { mode })
-  const given_nm = why.delivered_nm ?? why.commanded_nm
-  const asked = units.text(asked_nm, 'Nm', 0)
-  const given = units.text(given_nm, 'Nm', 0)
+  const demanded_nm = demandedNm(why)
+  if (demanded_nm < TELLING_NM) return say('demanded_nothing', { mode })
+  const delivered_nm = why.delivered_nm ?? why.commanded_nm
+  const demanded = units.text(demanded_nm, 'Nm', 0)
+  const delivered = units.text(delivered_nm, 'Nm', 0)
   const taken = takers(why)
   if (taken.length === 0) {
-    const told = why.delivered_nm === null ? 'uncut_told' : 'uncut'
-    return say(given === asked ? told : 'uncut_short', { mode, asked, given })
+    const uncut = why.delivered_nm === null ? 'uncut_commanded' : 'uncut'
+    return say(delivered === demanded ? uncut : 'uncut_short', { mode, demanded, delivered })
   }
-  const told = say(why.delivered_nm === null ? 'asked_commanded' : 'asked_arrived', {
+  const main = say(why.delivered_nm === null ? 'demanded_commanded' : 'demanded_delivered', {
     mode,
-    asked,
-    given,
+    demanded,
+    delivered,
   })
-  return `${told} ${whoTook(taken, say, units)}`
+  return `${main} ${whoTook(taken, say, units)}`
 }
 
 function whoTook([first, second]: Row[], say: Say, units: Units): string {
@@ -127,7 +130,7 @@ export function rowName(row: Row, why: Why, say: Say, units: Units): string {
   })
 }
 
-/** What was read where a row decides; empty where nothing is to be told. */
+/** What was read where a row decides; empty where there is nothing to show. */
 export function rowDetail(row: Row, why: Why, units: Units): string {
   const { readings, settings } = why
   const shown = (name: string, unit: string) =>
@@ -135,7 +138,7 @@ export function rowDetail(row: Row, why: Why, units: Units): string {
   const gear = units.number(settings.gear_ratio, '', 2)
   const most = units.text(settings.motor_torque_nm_max * settings.gear_ratio, 'Nm')
   const details: Record<string, string> = {
-    asked: row.power_w === null ? '' : units.text(row.power_w, 'W'),
+    demanded: row.power_w === null ? '' : units.text(row.power_w, 'W'),
     delivered: row.power_w === null ? '' : units.text(row.power_w, 'W'),
     commanded: row.power_w === null ? '' : units.text(row.power_w, 'W'),
     cutoff_band: units.text(why.speed_kmh, 'km/h'),
@@ -153,7 +156,7 @@ export function rowDetail(row: Row, why: Why, units: Units): string {
 
 /** What stands at the right of a row: torque in the law, watts at the clamps. */
 export function rowValue(row: Row, units: Units): string {
-  if (row.kind === 'asked' || row.kind === 'given' || row.kind === 'rider') {
+  if (row.kind === 'demanded' || row.kind === 'delivered' || row.kind === 'rider') {
     return units.text(row.torque_nm, 'Nm')
   }
   const sign = row.torque_nm < 0 ? '−' : '+'
@@ -163,7 +166,7 @@ export function rowValue(row: Row, units: Units): string {
   return /[1-9]/.test(size) ? sign + size : size
 }
 
-/** All of it as lines of text, to be sent to somebody. */
+/** All of it as lines of text, for passing on. */
 export function asText(why: Why, say: Say, units: Units, head: string): string {
   const rules = why.rules.map(({ row, column, label, weight }) => {
     const speed = units.text(why.table?.speed_points_kmh[row], 'km/h')

@@ -10,8 +10,8 @@ export interface Lamp {
   fault: string | null
 }
 
-/** How a unit's parts are. connected: whether it answers now; else nobody knows. zero: how far the
-    torque sensor's zero has moved by its rides. */
+/** How a unit's parts are. connected: whether it answers now; else its state is unknown. zero: how
+    far the torque sensor's zero has moved by its rides. */
 export function lampsOf(
   device: Device,
   connected: boolean,

@@ -4,7 +4,7 @@ import type { Dashboard } from '$shared/api/types'
 import { DashboardWatch } from '$shared/context/dashboard_watch.svelte'
 import { LiveStream, type Instead } from '$shared/stream/live.svelte'
 
-const KEPT = 61 // a minute
+const SAMPLES_MAX = 61 // a minute
 const CHANNELS = [
   'rider_torque_nm',
   'speed_kmh',
@@ -17,22 +17,22 @@ const CHANNELS = [
 ]
 
 export class UnitNow {
-  /** The last minute, once a second; null where nobody told. */
+  /** The last minute, once a second; null where not reported. */
   powers = $state.raw<{ at_s: number; rider_w: number | null; motor_w: number | null }[]>([])
   private readonly stream: LiveStream
   private readonly summed: DashboardWatch
 
   constructor(server: Server, instead: Instead, device_id: string) {
     this.summed = new DashboardWatch(server, device_id, (values) => this.note(values))
-    const asked = { device_id, channels: CHANNELS, rate_hz: 2, window_s: 1 }
-    this.stream = new LiveStream(asked, instead)
+    const options = { device_id, channels: CHANNELS, rate_hz: 2, window_s: 1 }
+    this.stream = new LiveStream(options, instead)
   }
 
   get dashboard(): Dashboard | null {
     return this.summed.values
   }
 
-  /** The newest values by channel; null while they are too old to look alive. */
+  /** The newest values by channel; null while they are too old to count as live. */
   get channels(): Record<string, number | null> | null {
     return this.stream.stale ? null : this.stream.latest
   }
@@ -53,6 +53,6 @@ export class UnitNow {
       rider_w: values?.rider_power_w ?? null,
       motor_w: values?.motor_power_w ?? null,
     }
-    this.powers = [...this.powers.slice(1 - KEPT), now]
+    this.powers = [...this.powers.slice(1 - SAMPLES_MAX), now]
   }
 }

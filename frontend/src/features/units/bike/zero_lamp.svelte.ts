@@ -1,4 +1,4 @@
-// What the rides tell of the torque sensor's zero, for its lamp. It comes after the page: the first
+// What the rides show of the torque sensor's zero, for its lamp. It comes after the page: the first
 // one need not carry it.
 import en from '$messages/en/bike.json'
 import type { SensorDrift } from '$shared/api/types'
@@ -13,7 +13,7 @@ export interface ZeroLamp {
   note: () => string
 }
 
-/** Null where no ride has told it since the last calibration, or nobody can be asked. */
+/** Null where no ride shows it since the last calibration, or there is no answer. */
 export async function zeroLamp(
   { server, locale, units }: AppContext,
   device_id: string,

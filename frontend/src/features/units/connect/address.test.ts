@@ -1,4 +1,4 @@
-/* Goal: what is typed is told as the server reads it (backend/device/link/opening.py). */
+/* Goal: what is typed is classified as the server reads it (backend/device/link/opening.py). */
 import { expect, it } from 'vitest'
 import { addressKind, newSimulated } from './address'
 
@@ -15,7 +15,7 @@ it.each([
   ['socket://192.0.2.7', 'socket_part'],
   ['socket://192.0.2.7:0', 'socket_part'],
   ['socket://192.0.2.7:70000', 'socket_part'],
-  ['http://192.0.2.7', 'not_a_way'],
+  ['http://192.0.2.7', 'not_an_address'],
 ])('reads %j', (address, kind) => {
   expect(addressKind(address)).toBe(kind)
 })

@@ -1,6 +1,6 @@
-// What an address in words would be: said while it is typed, as the server will read it.
+// The kind of an address while it is typed, as the server will read it.
 
-export type AddressKind = 'simulated' | 'socket' | 'serial' | 'socket_part' | 'not_a_way'
+export type AddressKind = 'simulated' | 'socket' | 'serial' | 'socket_part' | 'not_an_address'
 
 /** The kind of a way to a unit; `socket_part` and `not_a_way` are none yet; null: nothing typed. */
 export function addressKind(address: string): AddressKind | null {
@@ -11,10 +11,10 @@ export function addressKind(address: string): AddressKind | null {
     const port = Number(/^socket:\/\/(?:\[[^\]/]+\]|[^:/?#\s]+):(\d+)(?:[/?].*)?$/.exec(url)?.[1])
     return port >= 1 && port <= 65535 ? 'socket' : 'socket_part'
   }
-  return url.includes('://') ? 'not_a_way' : 'serial'
+  return url.includes('://') ? 'not_an_address' : 'serial'
 }
 
-export function isWay(kind: AddressKind | null): boolean {
+export function isConnectable(kind: AddressKind | null): boolean {
   return kind === 'simulated' || kind === 'socket' || kind === 'serial'
 }
 

@@ -1,7 +1,7 @@
-// What the server said of each connection while this page was open, in its order.
+// What the server reported of each connection while this page was open, in its order.
 import type { Device } from '$shared/api/types'
 
-/** One thing the server said; reason and state are its own words. */
+/** One report of the server; reason and state are its own words. */
 export interface ProbeLine {
   number: number
   after_s: number
@@ -10,12 +10,12 @@ export interface ProbeLine {
   reason_code: string
 }
 
-// A unit that is away is tried for ever; the last tries tell enough.
+// A unit that is away is tried for ever; the last tries are enough.
 const LINES = 8
 
 /** Notes a connection's state and reason whenever one of them is new. */
 export class ProbeLog {
-  private kept = $state.raw<Readonly<Record<string, readonly ProbeLine[]>>>({})
+  private lines_of = $state.raw<Readonly<Record<string, readonly ProbeLine[]>>>({})
   private begun_ms: Readonly<Record<string, number>> = {}
 
   note(device: Device, now_ms: number): void {
@@ -27,24 +27,24 @@ export class ProbeLog {
     this.begun_ms = { ...this.begun_ms, [id]: begun_ms }
     const number = (last?.number ?? 0) + 1
     const line = { number, after_s: (now_ms - begun_ms) / 1000, state, reason, reason_code }
-    this.kept = { ...this.kept, [id]: [...before, line].slice(-LINES) }
+    this.lines_of = { ...this.lines_of, [id]: [...before, line].slice(-LINES) }
   }
 
-  /** A connection is asked for anew: its log begins again. */
+  /** A connection is requested again: its log begins again. */
   begin(device: Device, now_ms: number): void {
     this.begun_ms = { ...this.begun_ms, [device.id]: now_ms }
-    this.kept = { ...this.kept, [device.id]: [] }
+    this.lines_of = { ...this.lines_of, [device.id]: [] }
     this.note(device, now_ms)
   }
 
   of(id: string): readonly ProbeLine[] {
-    return this.kept[id] ?? []
+    return this.lines_of[id] ?? []
   }
 }
 
 /** How far a connection is, in one of few words; each has a sentence of its own. */
 export function probeResult(device: Pick<Device, 'state' | 'reason_code'>): ProbeResult {
-  if (device.state === 'ready') return 'found'
+  if (device.state === 'ready') return 'connected'
   if (device.state === 'read_only') return 'older'
   return RESULTS[device.reason_code] ?? 'failed'
 }
@@ -66,7 +66,7 @@ const RESULTS: Readonly<Record<string, ProbeResult>> = {
 }
 
 export type ProbeResult =
-  | 'found'
+  | 'connected'
   | 'older'
   | 'probing'
   | 'busy'

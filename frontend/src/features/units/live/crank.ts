@@ -38,15 +38,15 @@ export function lastTurns(angles: Column, torques: Column): Turns | null {
   }
   turns.reverse()
   turns.shift() // its beginning lies before the rows that are here
-  const whole = turns.slice(0, -1).flat()
-  if (whole.length === 0) return null
+  const complete = turns.slice(0, -1).flat()
+  if (complete.length === 0) return null
   const work = (points: Point[]) =>
     points.reduce((sum, { torque_nm, step_deg }) => sum + Math.max(0, torque_nm) * step_deg, 0)
-  const all = work(whole)
+  const all = work(complete)
   return {
     turns,
     torque_nm_max: Math.max(0, ...turns.flat().map(({ torque_nm }) => torque_nm)),
-    left: all > 0 ? work(whole.filter(({ angle_deg }) => angle_deg < FULL_DEG / 2)) / all : null,
+    left: all > 0 ? work(complete.filter(({ angle_deg }) => angle_deg < FULL_DEG / 2)) / all : null,
   }
 }
 

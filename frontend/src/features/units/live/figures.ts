@@ -1,4 +1,4 @@
-// What the page asks of the unit and shows as numbers: four large ones, then eight small.
+// What the page requests of the unit and shows as numbers: four large ones, then eight small.
 import type { Dashboard } from '$shared/api/types'
 import type { Key } from './words'
 
@@ -34,16 +34,16 @@ export const SMALL: readonly Figure[] = [
   { word: 'range', summed: 'range_km', unit: 'km', digits: 0 },
 ]
 
-const ASKED = 'motor_torque_demanded_nm'
+const DEMANDED = 'motor_torque_demanded_nm'
 
-/** Whether the unit tells what its motor gives, by its current: one of earlier firmware sends as
-    `motor_torque_nm` what it asks, and nothing beside it. */
-export function tellsWhatIsGiven(channels: readonly { name: string }[] | undefined): boolean {
-  return channels?.some((channel) => channel.name === ASKED) ?? true
+/** Whether the unit reports the torque that its motor delivers, by its current: one of earlier
+    firmware sends as `motor_torque_nm` the demanded torque, and nothing else. */
+export function reportsDelivered(channels: readonly { name: string }[] | undefined): boolean {
+  return channels?.some((channel) => channel.name === DEMANDED) ?? true
 }
 
-/** The average over the stroke is held while the reading it is made of is missing; what is held is
-    no measurement. */
+/** The average over the stroke stays frozen while the reading it is made of is missing: a frozen
+    value is no measurement. */
 export const MADE_OF: Readonly<Record<string, string>> = {
   rider_torque_filtered_nm: 'rider_torque_nm',
   torque_rate: 'rider_torque_nm',
@@ -51,7 +51,7 @@ export const MADE_OF: Readonly<Record<string, string>> = {
 
 export const CHANNELS = [
   ...[...LARGE, ...SMALL].flatMap(({ channel }) => channel ?? []),
-  ASKED,
+  DEMANDED,
   'rider_torque_nm',
   'crank_angle_deg',
   'torque_rate',
@@ -63,8 +63,8 @@ export const CHANNELS = [
   'fault_flags_high',
 ]
 
-/** The newest values with null for what is only held. */
+/** The newest values with null for what is frozen. */
 export function measured(latest: Readonly<Record<string, number | null>>) {
-  const held = Object.keys(MADE_OF).filter((name) => latest[MADE_OF[name] ?? ''] === null)
-  return { ...latest, ...Object.fromEntries(held.map((name) => [name, null])) }
+  const stale = Object.keys(MADE_OF).filter((name) => latest[MADE_OF[name] ?? ''] === null)
+  return { ...latest, ...Object.fromEntries(stale.map((name) => [name, null])) }
 }

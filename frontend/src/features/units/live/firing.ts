@@ -1,9 +1,9 @@
-// Which rules fire now, asked of the unit's own law with the table that the ridden mode uses.
+// Which rules fire now, computed by the unit's own law with the table that the ridden mode uses.
 import type { AssistModes, FuzzyTable, WhyRequest } from '$shared/api/types'
 import { STEADY } from '$shared/config/steady'
 import { modesFrom, tableFrom, type Read } from '$shared/config/two_tables'
 
-const LOOK_BACK_S = 1
+const RECENT_S = 1
 
 /** What of a configuration decides which rules fire. */
 export interface Tables {
@@ -23,19 +23,19 @@ export interface Channels {
   column: (channel: string) => (number | null)[] | null
 }
 
-/** The newest moment, a second ago at most, at which torque rose: only then is the table asked, and
+/** The newest moment, a second ago at most, at which torque rose: only then is the table used, and
     every stroke falls as long as it rises. Null for none. */
 export function moment(rows: Channels): Record<string, number> | null {
   const { times } = rows
   const names = ['speed_kmh', 'torque_rate', 'rider_torque_filtered_nm', 'cadence_rpm'] as const
   const columns = [...names, 'assist_mode'].map((name) => [name, rows.column(name)] as const)
   const rates = rows.column('torque_rate')
-  const oldest_s = (times[times.length - 1] ?? 0) - LOOK_BACK_S
+  const oldest_s = (times[times.length - 1] ?? 0) - RECENT_S
   for (let row = times.length - 1; row >= 0 && (times[row] ?? 0) > oldest_s; row--) {
     if ((rates?.[row] ?? -1) < 0) continue
-    const found = columns.map(([name, values]) => [name, values?.[row] ?? null] as const)
-    if (found.every(([, value]) => value !== null)) {
-      return Object.fromEntries(found) as Record<string, number>
+    const entries = columns.map(([name, values]) => [name, values?.[row] ?? null] as const)
+    if (entries.every(([, value]) => value !== null)) {
+      return Object.fromEntries(entries) as Record<string, number>
     }
   }
   return null

@@ -1,11 +1,11 @@
-/* Goal: what the page works out of the unit's rows is what the rows say: where something held the
-   motor back, how torque lies round the crank, and that what is only held is no measurement.
+/* Goal: what the page works out of the unit's rows is what the rows say: where something limited
+   the motor, how torque lies round the crank, and that a frozen value is no measurement.
    Method: rows made by hand, 100 a second; the balance by integrating a known torque. */
 import { FLAGS } from '$generated/registry'
 import { expect, it } from 'vitest'
 import { lastTurns, place } from './crank'
 import { measured } from './figures'
-import { stretches } from './held'
+import { stretches } from './limited_spans'
 
 const STEP_S = 0.01
 const bit = (flag: keyof typeof FLAGS.limit_flags) => 2 ** FLAGS.limit_flags[flag]
@@ -19,29 +19,29 @@ function rows(seconds: number, word: AtTime, fault: AtTime = () => 0) {
 }
 
 it('joins what returns within a stroke and leaves out ramps and blinks', () => {
-  const told = rows(20, (at_s) => {
+  const input = rows(20, (at_s) => {
     if (at_s > 2 && at_s < 4) return at_s % 0.5 < 0.3 ? bit('battery_current') : 0
     if (at_s > 8 && at_s < 8.05) return bit('market')
     return bit('ramp_up')
   })
 
-  const [held, ...others] = stretches(told)
+  const [span, ...others] = stretches(input)
 
   expect(others).toEqual([])
-  expect(held?.from_s).toBeCloseTo(2.01)
-  expect(held?.to_s).toBeCloseTo(3.79)
-  expect(held?.limits).toEqual(['battery_current'])
+  expect(span?.from_s).toBeCloseTo(2.01)
+  expect(span?.to_s).toBeCloseTo(3.79)
+  expect(span?.limits).toEqual(['battery_current'])
 })
 
-it('tells a fault from the limit before it, and that it goes on', () => {
+it('separates a fault from the limit before it, and shows that it goes on', () => {
   const sensor = 2 ** FLAGS.fault_flags.torque_sensor
-  const told = rows(
+  const input = rows(
     6,
     (at_s) => (at_s < 3 ? bit('motor_torque') : bit('fault')),
     (at_s) => (at_s < 3 ? 0 : sensor),
   )
 
-  const [before, fault] = stretches(told)
+  const [before, fault] = stretches(input)
 
   expect(before).toMatchObject({ from_s: 0, limits: ['motor_torque'], faults: [] })
   expect(fault).toMatchObject({ to_s: Infinity, limits: [], faults: ['torque_sensor'] })
@@ -52,11 +52,11 @@ it('splits the work between the feet by the angle the crank turned', () => {
   const angles = Array.from({ length: 430 }, (_, row) => (row * 3.6) % 360)
   const torques = angles.map((angle) => (angle < 180 ? 30 : 20))
 
-  const found = lastTurns(angles, torques)
+  const last = lastTurns(angles, torques)
 
-  expect(found?.left).toBeCloseTo(0.6)
-  expect(found?.torque_nm_max).toBe(30)
-  expect(found?.turns.map((turn) => turn.length)).toEqual([100, 100, 100, 30])
+  expect(last?.left).toBeCloseTo(0.6)
+  expect(last?.torque_nm_max).toBe(30)
+  expect(last?.turns.map((turn) => turn.length)).toEqual([100, 100, 100, 30])
 })
 
 it('draws nothing before the cranks have turned once, nor over a gap', () => {

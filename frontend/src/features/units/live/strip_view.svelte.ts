@@ -13,18 +13,18 @@ export const SPAN_S = 30
 
 export class StripView {
   /** The rows that were there when the strips were paused; null while they move. */
-  private kept = $state.raw<Rows | null>(null)
+  private frozen = $state.raw<Rows | null>(null)
   /** Seconds before the right edge, 0 or less; null for none. */
   cursor_s = $state<number | null>(null)
 
   constructor(private readonly stream: LiveStream) {}
 
   get paused(): boolean {
-    return this.kept !== null
+    return this.frozen !== null
   }
 
   private get rows(): Rows {
-    return this.kept ?? this.stream.buffer
+    return this.frozen ?? this.stream.buffer
   }
 
   get times(): number[] {
@@ -36,7 +36,7 @@ export class StripView {
     this.cursor_s = null
     const { times, columns } = this.stream.buffer
     const copy = () => ({ times: times.slice(), columns: columns.map((one) => one.slice()) })
-    this.kept = this.kept ? null : copy()
+    this.frozen = this.frozen ? null : copy()
   }
 
   /** Moves the cursor, from the right edge where there is none; only while paused. */

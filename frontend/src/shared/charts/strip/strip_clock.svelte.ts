@@ -14,12 +14,12 @@ export class StripClock {
   private drawn: number[] = []
 
   /** Calls for a drawing on every animation frame until `stop`. `end_s`: the newest row's time. */
-  start(end_s: () => number, held: () => boolean): void {
+  start(end_s: () => number, isFrozen: () => boolean): void {
     this.running = true
     const step = (now_ms: number) => {
       if (!this.running) return
       const end = end_s()
-      if (!held() && Number.isFinite(end)) this.advance(now_ms, end)
+      if (!isFrozen() && Number.isFinite(end)) this.advance(now_ms, end)
       requestAnimationFrame(step)
     }
     requestAnimationFrame(step)

@@ -1,4 +1,4 @@
-// What a strip marks beside its lines: shaded stretches with their names, and a cursor.
+// What a strip marks besides its lines: shaded stretches with their names, and a cursor.
 import type uPlot from 'uplot'
 import type { StripMarks, StripShade, StripSpec } from './strip_chart'
 

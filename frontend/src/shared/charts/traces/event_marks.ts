@@ -7,7 +7,7 @@ const MARK_ROW_PX = 14
 const LINES_MAX = 40 // more would hide the curves; the marks are all there
 
 type Kind = RideEvent['kind']
-const looks: Record<Kind, { symbol: string; token: string }> = {
+const styles: Record<Kind, { symbol: string; token: string }> = {
   fault_set: { symbol: 'triangle-down', token: 'bad' },
   fault_cleared: { symbol: 'circle-open', token: 'ok' },
   settings: { symbol: 'square', token: 'accent' },
@@ -15,7 +15,7 @@ const looks: Record<Kind, { symbol: string; token: string }> = {
   clock_set: { symbol: 'hourglass', token: 'ink-2' },
   assist_mode: { symbol: 'diamond', token: 'ink-2' },
 }
-const kinds = Object.keys(looks) as Kind[] // the worst first
+const kinds = Object.keys(styles) as Kind[] // the worst first
 
 /** An event with its sentence. */
 export interface MarkedEvent extends RideEvent {
@@ -40,7 +40,7 @@ export function markData(
   return kinds.toReversed().flatMap((kind) => {
     const those = events.filter((event) => event.kind === kind)
     if (those.length === 0) return []
-    const { symbol, token } = looks[kind]
+    const { symbol, token } = styles[kind]
     return {
       type: 'scatter',
       mode: 'markers',
@@ -78,7 +78,7 @@ export function markLines(
     x1: words.at(t_s),
     y0: 0,
     y1: top,
-    line: { color: theme.colour(looks[kind].token), width: 1, dash: 'dot' },
+    line: { color: theme.colour(styles[kind].token), width: 1, dash: 'dot' },
     layer: 'below',
   }))
 }

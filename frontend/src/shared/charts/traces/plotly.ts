@@ -2,7 +2,8 @@
 import type { Language } from '$shared/i18n/locale.svelte'
 import type { Theme } from '$shared/ui/theme.svelte'
 
-/** Nothing leaves this machine, nobody advertises, and zooming explains itself in our words. */
+/** Nothing leaves this machine, there is no advertisement, and zooming explains itself in our
+    words. */
 export function plotConfig(language: Language): object {
   return {
     showSendToCloud: false,
@@ -29,7 +30,7 @@ export async function loadTraceChart() {
 }
 
 /** Colours and type of a chart, from the style sheet. */
-export function plotLook(theme: Theme): { font: object; axis: object; base: object } {
+export function plotStyle(theme: Theme): { font: object; axis: object; base: object } {
   const ink = theme.colour('ink-2')
   const font = {
     family: '-apple-system, "Segoe UI", Roboto, "Noto Sans", "Noto Sans CJK SC", sans-serif',

@@ -7,37 +7,37 @@ import { Pace } from '$shared/context/pace'
 import { timeAxis, type LaidAxis, type TraceAxis } from './trace_axis'
 import { TraceWindow, type TimeWindow } from './trace_window.svelte'
 
-const PACE_MS = 60 // a drag asks this often at most
+const PACE_MS = 60 // a drag sends requests at most this often
 
-/** Asks for the series of a window; without ends, of all there is. */
-export type AskSeries = (
+/** Fetches the series of a window; without ends, of the complete ride. */
+export type FetchSeries = (
   channels: string[],
   query: { px: number; axis: Series['axis']; from_s?: number; to_s?: number },
   signal: AbortSignal,
 ) => Promise<Series>
 
-export function ofRide(server: Server, id: number): AskSeries {
+export function ofRide(server: Server, id: number): FetchSeries {
   return (channels, query, signal) => server.series(id, channels, query, signal)
 }
 
 export class RideView extends TraceWindow {
   channels = $state.raw<string[]>([])
   loading = $state(false)
-  trouble = $state<string | null>(null)
-  /** Width of the plot it was asked for last. */
+  problem = $state<string | null>(null)
+  /** Width of the plot of the last request. */
   px = 1000
-  private asked = new AbortController()
+  private controller = new AbortController()
   private readonly pace = new Pace(PACE_MS)
 
   constructor(
-    readonly ask: AskSeries,
+    readonly fetchSeries: FetchSeries,
     channels: string[],
     duration_s: number,
     window: TimeWindow | null,
-    private wanted: TraceAxis | LaidAxis = timeAxis,
+    private requested_axis: TraceAxis | LaidAxis = timeAxis,
   ) {
     super(duration_s, window)
-    this.axis = wanted
+    this.axis = requested_axis
     this.channels = channels
   }
 
@@ -49,7 +49,7 @@ export class RideView extends TraceWindow {
 
   /** Draws over another axis as soon as its curve is there. */
   lay(axis: TraceAxis, px: number): void {
-    this.wanted = axis
+    this.requested_axis = axis
     this.fetchSoon(px)
   }
 
@@ -61,28 +61,28 @@ export class RideView extends TraceWindow {
 
   stop(): void {
     this.pace.stop()
-    this.asked.abort()
+    this.controller.abort()
   }
 
   private async fetch(px: number): Promise<void> {
-    this.asked.abort()
-    this.asked = new AbortController()
-    const { signal } = this.asked
+    this.controller.abort()
+    this.controller = new AbortController()
+    const { signal } = this.controller
     this.loading = true
     // Whole hundreds of pixels: the same window on almost the same screen is the same request.
-    const axis = this.wanted
-    const wanted = { px: Math.max(100, Math.round(px / 100) * 100), axis: axis.kind }
-    const query = this.whole ? wanted : { ...wanted, ...this.window }
+    const axis = this.requested_axis
+    const bins = { px: Math.max(100, Math.round(px / 100) * 100), axis: axis.kind }
+    const query = this.is_complete ? bins : { ...bins, ...this.window }
     try {
-      const series = await this.ask(this.channels, query, signal)
+      const series = await this.fetchSeries(this.channels, query, signal)
       if (signal.aborted) return
       this.series = series
       this.axis = 'refined' in axis ? axis.refined(series) : axis
-      this.trouble = null
+      this.problem = null
     } catch (error) {
       if (signal.aborted) return
       if (!(error instanceof Refusal)) throw error
-      this.trouble = error.message
+      this.problem = error.message
     }
     this.loading = false
   }

@@ -6,16 +6,16 @@ import type { Series } from '$shared/api/series'
 import { axisTicks, LaidAxis } from './trace_axis'
 
 // 100 s at 10 m/s, a light of 50 s, 100 s at 5 m/s.
-const way = new LaidAxis('distance', [0, 100, 150, 250], [0, 1000, 1000, 1500])
+const distance = new LaidAxis('distance', [0, 100, 150, 250], [0, 1000, 1000, 1500])
 
 it('stands while the bike does, and finds the moment it came to a place', () => {
-  expect([way.at(50), way.at(120), way.at(200)]).toEqual([500, 1000, 1250])
-  expect([way.moment(500), way.moment(1000), way.moment(1250)]).toEqual([50, 100, 200])
+  expect([distance.at(50), distance.at(120), distance.at(200)]).toEqual([500, 1000, 1250])
+  expect([500, 1000, 1250].map((at_m) => distance.moment(at_m))).toEqual([50, 100, 200])
 })
 
 it('ends where the ride does', () => {
-  expect([way.at(-5), way.at(900)]).toEqual([0, 1500])
-  expect([way.moment(-5), way.moment(9000)]).toEqual([0, 250])
+  expect([distance.at(-5), distance.at(900)]).toEqual([0, 1500])
+  expect([distance.moment(-5), distance.moment(9000)]).toEqual([0, 250])
 })
 
 it('takes the rows of a series for more exact than its own points', () => {
@@ -26,7 +26,7 @@ it('takes the rows of a series for more exact than its own points', () => {
     x_last: Float64Array.of(299, 400),
   } as unknown as Series
 
-  const finer = way.refined(series)
+  const finer = distance.refined(series)
 
   expect(finer.at(20)).toBe(230)
   expect(finer.at(0)).toBe(0)
@@ -35,8 +35,8 @@ it('takes the rows of a series for more exact than its own points', () => {
 
 it('names round kilometres, or miles', () => {
   const locale = new Locale()
-  const metric = axisTicks(way, 0, 1500, 3, new Units(locale, 'metric'))
-  const imperial = axisTicks(way, 0, 3200, 2, new Units(locale, 'imperial'))
+  const metric = axisTicks(distance, 0, 1500, 3, new Units(locale, 'metric'))
+  const imperial = axisTicks(distance, 0, 3200, 2, new Units(locale, 'imperial'))
 
   expect(metric.text).toEqual(['0.0 km', '0.5 km', '1.0 km', '1.5 km'])
   expect(imperial.text).toEqual(['0 mi', '1 mi'])

@@ -41,7 +41,7 @@ export class LaidAxis implements TraceAxis {
     const end_s = t_last_s[t_last_s.length - 1] ?? 0
     const t_s: number[] = []
     const x: number[] = []
-    const keep = (outside: (t_s: number) => boolean) => {
+    const skip = (outside: (t_s: number) => boolean) => {
       for (let i = 0; i < this.t_s.length; i++) {
         const at_s = this.t_s[i] ?? 0
         if (!outside(at_s)) continue
@@ -49,12 +49,12 @@ export class LaidAxis implements TraceAxis {
         x.push(this.x[i] ?? 0)
       }
     }
-    keep((at_s) => at_s < begin_s)
+    skip((at_s) => at_s < begin_s)
     for (let i = 0; i < x_first.length; i++) {
       t_s.push(t_first_s[i] ?? 0, t_last_s[i] ?? 0)
       x.push(x_first[i] ?? 0, x_last[i] ?? 0)
     }
-    keep((at_s) => at_s > end_s)
+    skip((at_s) => at_s > end_s)
     return new LaidAxis(this.kind, t_s, x)
   }
 }

@@ -3,7 +3,7 @@ import type { Series } from '$shared/api/series'
 import type { Theme } from '$shared/ui/theme.svelte'
 import type { Units } from '$shared/units/units.svelte'
 import { markAxis, markLines, type EventWords, type MarkedEvent } from './event_marks'
-import { plotLook } from './plotly'
+import { plotStyle } from './plotly'
 import { axisTicks } from './trace_axis'
 import type { TraceWindow } from './trace_window.svelte'
 import {
@@ -67,9 +67,9 @@ export function traceData(
   )
 }
 
-function stroke({ look }: TraceLine): { width: number; dash?: string } {
-  if (look === 'dashed') return { width: 1.6, dash: '5px,3px' }
-  return { width: look === 'broad' ? 3 : 1.4 }
+function stroke({ style }: TraceLine): { width: number; dash?: string } {
+  if (style === 'dashed') return { width: 1.6, dash: '5px,3px' }
+  return { width: style === 'broad' ? 3 : 1.4 }
 }
 
 /** The part of the layout that a zoom changes; a figure is not built anew for it. */
@@ -109,7 +109,7 @@ export function traceLayout(
   units: Units,
   words: FigureWords,
 ): Record<string, unknown> {
-  const { base, axis, font } = plotLook(theme)
+  const { base, axis, font } = plotStyle(theme)
   const count = frame.rows.length
   const gap = ROW_GAP_PX / frame.height
   const head = frame.events.length > 0 ? MARKS_PX / frame.height : 0
@@ -172,11 +172,11 @@ function title(text: string, y: number): object {
 function rowTitle(row: TraceRow, units: Units, words: FigureWords, theme: Theme): string {
   const unit = row.unit ? ` ${units.label(row.unit)}` : ''
   const keys = row.lines.map((line) => {
-    const mark = SWATCH[line.look ?? 'thin']
+    const mark = SWATCH[line.style ?? 'thin']
     const swatch = `<span style="color:${theme.colour(line.token)}">${mark}</span>`
     return `${swatch} ${words.channel(line.name ?? line.channel)}`
   })
-  return row.lines.length > 1 || row.lines[0]?.look
+  return row.lines.length > 1 || row.lines[0]?.style
     ? `<b>${words.row(row.key)}</b>${unit}  ${keys.join('  ')}`
     : `<b>${words.row(row.key)}</b>${unit}`
 }

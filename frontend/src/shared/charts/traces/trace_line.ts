@@ -12,8 +12,8 @@ export interface TraceLine {
   token: string
   /** Its name beside the others of its row, where it is not the channel's. */
   name?: string
-  /** Told apart by more than its colour. */
-  look?: 'broad' | 'dashed'
+  /** Distinguishes it by more than its colour. */
+  style?: 'broad' | 'dashed'
 }
 
 export interface TraceRow {
@@ -28,7 +28,7 @@ export interface Span {
 }
 
 export interface Cursor {
-  /** Null while nothing is looked at. */
+  /** Null while there is no cursor. */
   t_s: number | null
   move: (t_s: number) => void
 }
@@ -41,11 +41,11 @@ export interface Traced {
   /** Stretches that came from the unit's own log, coarser than the rest. */
   filled?: Span[]
   events?: MarkedEvent[]
-  /** Stretches in which something held the motor back. */
+  /** Stretches in which something limited the motor. */
   cuts?: Span[]
   /** What the cursor reads, beside the title of each row. */
   readings?: string[]
-  /** A moment that is looked at: keys and a press on the plot move it. */
+  /** The cursor's moment: keys and a press on the plot move it. */
   cursor?: Cursor
   summary: string
   /** What a place of the axis is called, where it is no moment of a ride. */

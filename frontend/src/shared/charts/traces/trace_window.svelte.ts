@@ -1,4 +1,4 @@
-// A window of time over traces: moved, zoomed, and kept inside the ride.
+// A window of time over traces: moved, zoomed, and clamped to the ride.
 import type { Series } from '$shared/api/series'
 import { timeAxis, type TraceAxis } from './trace_axis'
 
@@ -23,7 +23,7 @@ export class TraceWindow {
     this.window = this.inside(window ?? { from_s: 0, to_s: duration_s })
   }
 
-  get whole(): boolean {
+  get is_complete(): boolean {
     return this.window.from_s <= 0 && this.window.to_s >= this.duration_s
   }
 

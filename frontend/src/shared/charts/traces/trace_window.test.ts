@@ -4,14 +4,14 @@ import { TraceWindow } from './trace_window.svelte'
 
 it('zooms about its middle and stays within the ride', () => {
   const view = new TraceWindow(100)
-  expect(view.whole).toBe(true)
+  expect(view.is_complete).toBe(true)
 
   view.zoom(0.5, 800)
   expect(view.window).toEqual({ from_s: 25, to_s: 75 })
   view.pan(1, 800)
   expect(view.window).toEqual({ from_s: 50, to_s: 100 })
   view.zoom(4, 800)
-  expect(view.whole).toBe(true)
+  expect(view.is_complete).toBe(true)
 })
 
 it('begins at the window of an address', () => {

@@ -1,5 +1,5 @@
-// A calibration on show: the job as the server tells it, the sensor's reading several times a
-// second, and one verb at a time. What is lost on the way is said, and asked for again.
+// A calibration on show: the job as the server reports it, the sensor's reading several times a
+// second, and one verb at a time. What is lost in transit is reported and requested again.
 import { Refusal } from '$shared/api/client'
 import { PollWhileVisible } from '$shared/context/poll_while_visible'
 import type { CalibrationServer } from './calibration_server'
@@ -15,7 +15,7 @@ export class CalibrationRun {
   refused = $state.raw<Refusal | null>(null)
   /** The server does not answer. */
   lost = $state(false)
-  private readonly polling = new PollWhileVisible(() => this.look(), READING_MS)
+  private readonly polling = new PollWhileVisible(() => this.poll(), READING_MS)
 
   constructor(
     job: Job,
@@ -32,7 +32,7 @@ export class CalibrationRun {
     this.polling.stop()
   }
 
-  /** Does one thing; whether it was done. A second one waits for nobody: it is not done. */
+  /** Does one thing; whether it was done. A second one is refused while the first runs. */
   async act(verb: (server: CalibrationServer, id: number) => Promise<Job>): Promise<boolean> {
     if (this.busy) return false
     this.busy = true
@@ -51,7 +51,7 @@ export class CalibrationRun {
     }
   }
 
-  /** The job as it is now; what was known stays where nobody answers. */
+  /** The job as it is now; the last one stays while there is no answer. */
   private async again(): Promise<void> {
     try {
       this.job = await this.server.get(this.job.id)
@@ -62,7 +62,7 @@ export class CalibrationRun {
     }
   }
 
-  private async look(): Promise<void> {
+  private async poll(): Promise<void> {
     if (this.job.state === 'closed') return
     const was_lost = this.lost
     try {

@@ -35,13 +35,13 @@ export class CalibrationServer {
   }
 
   setUp(id: number, setup: SetupRequest): Promise<Job> {
-    const asked = { ...this.at(id), body: setup }
-    return body(this.http.PUT('/api/v1/calibrations/{calibration_id}/setup', asked))
+    const request = { ...this.at(id), body: setup }
+    return body(this.http.PUT('/api/v1/calibrations/{calibration_id}/setup', request))
   }
 
   capture(id: number, state: CaptureRequest): Promise<Job> {
-    const asked = { ...this.at(id), body: state }
-    return body(this.http.POST('/api/v1/calibrations/{calibration_id}/captures', asked))
+    const request = { ...this.at(id), body: state }
+    return body(this.http.POST('/api/v1/calibrations/{calibration_id}/captures', request))
   }
 
   strike(calibration_id: number, number: number, reason: string): Promise<Job> {
@@ -54,7 +54,7 @@ export class CalibrationServer {
     return body(this.http.POST('/api/v1/calibrations/{calibration_id}/fit', this.at(id)))
   }
 
-  /** token: the maker's, where a refusal asked for one. */
+  /** token: the maker's, where a refusal requires it. */
   write(calibration_id: number, reason: string, token: string | null): Promise<Job> {
     const params = { path: { calibration_id }, query: { reason, token } }
     return body(this.http.POST('/api/v1/calibrations/{calibration_id}/write', { params }))
@@ -67,8 +67,8 @@ export class CalibrationServer {
   }
 
   verify(id: number, load: VerifyRequest): Promise<Job> {
-    const asked = { ...this.at(id), body: load }
-    return body(this.http.POST('/api/v1/calibrations/{calibration_id}/verify', asked))
+    const request = { ...this.at(id), body: load }
+    return body(this.http.POST('/api/v1/calibrations/{calibration_id}/verify', request))
   }
 
   close(id: number): Promise<Job> {
@@ -84,6 +84,6 @@ export function certificateAddress(id: number): string {
 /** Its PDF, with moments of where the reader is. */
 export function paperAddress(id: number, language: string): string {
   const zone = Intl.DateTimeFormat().resolvedOptions().timeZone || 'UTC'
-  const asked = new URLSearchParams({ language, zone })
-  return `api/v1/calibrations/${id}/certificate.pdf?${asked}`
+  const request = new URLSearchParams({ language, zone })
+  return `api/v1/calibrations/${id}/certificate.pdf?${request}`
 }

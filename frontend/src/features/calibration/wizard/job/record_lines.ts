@@ -1,9 +1,9 @@
-// The unit's record as a change of it makes it: what it has beside what it gets.
+// The unit's record as a change of it makes it: current against planned values.
 import type { Job, RecordLine } from './types'
 
 export type ChangeKind = Job['changes'][number]['kind']
 
-/** `write`: what was found beside the fit. `restore`: what was written beside what was before. */
+/** `write`: as found against the fit. `restore`: written against what was before. */
 export function recordLines(job: Job, kind: ChangeKind): RecordLine[] {
   const last = job.changes.at(-1)
   if (kind === 'write' || !last) return job.record

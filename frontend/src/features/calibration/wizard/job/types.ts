@@ -1,4 +1,4 @@
-// Short names for what a calibration is told in.
+// Short names for the schemas of a calibration.
 import type { components, operations } from '$generated/api'
 
 type Schemas = components['schemas']
@@ -10,7 +10,7 @@ export type Setup = Schemas['Setup']
 export type SetupRequest = Schemas['SetupRequest']
 export type CaptureRequest = Schemas['CaptureRequest']
 export type VerifyRequest = Schemas['VerifyRequest']
-export type CaptureTold = Schemas['CaptureTold']
+export type CaptureSummary = Schemas['CaptureSummary']
 export type Step = Schemas['Step']
 export type State = Schemas['State']
 export type Side = Schemas['VerifyRequest']['side']

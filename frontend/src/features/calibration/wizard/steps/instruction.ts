@@ -21,11 +21,15 @@ export function instructionOf(
   step: Step | null,
 ): Instruction {
   const say = words(locale)
-  if (!step) return { title: say('all_there'), note: '', button: '' }
+  if (!step) return { title: say('all_taken'), note: '', button: '' }
   const { kind, side, mass_kg, crank_angle_deg, stroke, direction } = step.state
   const pedal = side ? say(`pedal_${side}`) : ''
-  const way = direction ? say(direction) : ''
-  const place = say('stroke_of', { stroke, count: job.setup?.strokes ?? stroke, way, pedal })
+  const place = say('stroke_of', {
+    stroke,
+    count: job.setup?.strokes ?? stroke,
+    direction: direction ? say(direction) : '',
+    pedal,
+  })
   if (kind === 'zero') {
     return { title: say('take_off', { pedal }), note: place, button: say('take_zero') }
   }

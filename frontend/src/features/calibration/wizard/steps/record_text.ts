@@ -1,5 +1,5 @@
 // A value of the unit's calibration record, in words.
-import { wholeText } from '$shared/config/parameter_text'
+import { singleText } from '$shared/config/parameter_text'
 import type { Locale } from '$shared/i18n/locale.svelte'
 import type { RecordLine } from '../job/types'
 
@@ -13,7 +13,7 @@ const DIGITS: Readonly<Record<string, number>> = {
 
 export function recordText(locale: Locale, name: string, value: RecordLine['found']): string {
   if (value === null) return '—'
-  const whole = wholeText(locale, name, value)
-  if (whole !== null) return whole
+  const single = singleText(locale, name, value)
+  if (single !== null) return single
   return typeof value === 'number' ? locale.number(value, DIGITS[name] ?? 0) : String(value)
 }

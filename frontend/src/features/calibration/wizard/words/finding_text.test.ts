@@ -1,6 +1,6 @@
 // @vitest-environment happy-dom
 /* Goal: what the server says of a calibration is read in the reader's units and language, and says
-   so where something is not told. Sentences by hand; 5 Nm are 3.7 lbf·ft. */
+   so where something is not reported. Sentences by hand; 5 Nm are 3.7 lbf·ft. */
 import { FAULTS } from '$generated/registry'
 import { expect, it } from 'vitest'
 import { faultList } from '$shared/device/fault_text'
@@ -28,22 +28,22 @@ it('a torque is in the reader’s units', () => {
   expect(sentenceOf(english, imperial, foot)).toMatch(/4\.6\slbf·ft, 3\.7\slbf·ft is allowed/)
 })
 
-it('what turns is told with its unit, what nobody tells with a dash', () => {
-  const told = check('standing', null, { values: { wheel_kmh: 10, cadence_rpm: 60 } })
+it('what turns has its unit, what is not reported is a dash', () => {
+  const finding = check('standing', null, { values: { wheel_kmh: 10, cadence_rpm: 60 } })
 
-  expect(sentenceOf(english, imperial, told)).toMatch(/wheel 6\.2\smph, crank 60\srpm, motor —/)
+  expect(sentenceOf(english, imperial, finding)).toMatch(/wheel 6\.2\smph, crank 60\srpm, motor —/)
 })
 
 it('faults have their names', () => {
   const [one = '', two = ''] = Object.keys(FAULTS)
-  const told = check('faults', 2, { values: { names: `${one}, ${two}` } })
+  const finding = check('faults', 2, { values: { names: `${one}, ${two}` } })
 
-  expect(sentenceOf(english, metric, told)).toBe(`faults: ${faultList(english, [one, two])}`)
+  expect(sentenceOf(english, metric, finding)).toBe(`faults: ${faultList(english, [one, two])}`)
   expect(sentenceOf(english, metric, check('faults', 0, { values: { names: '' } }))).toBe(
     'faults: none',
   )
 })
 
-it('a code of a newer server is told as the server says it', () => {
+it('a code of a newer server has the sentence of the server', () => {
   expect(sentenceOf(english, metric, check('of_tomorrow', 1))).toBe('as the server says it')
 })

@@ -16,7 +16,7 @@ const FIGURE_IN: Readonly<Record<string, string>> = {
 /** The same of named values, by how their names end. */
 const VALUE_IN: Readonly<Record<string, string>> = { kmh: 'km/h', rpm: 'rpm' }
 
-interface Said {
+interface Finding {
   code: string
   sentence: string
   figure?: number | null
@@ -25,8 +25,8 @@ interface Said {
 }
 
 /** The sentence of a check, a refusal or a cause. */
-export function sentenceOf(locale: Locale, units: Units, said: Reason | Check | Cause): string {
-  const { code, sentence, figure, allowed, values } = said as Said
+export function sentenceOf(locale: Locale, units: Units, finding: Reason | Check | Cause): string {
+  const { code, sentence, figure, allowed, values } = finding as Finding
   // A code that a newer server has is no word of ours.
   if (!isFinding(code)) return sentence
   const text = (name: string, value: number | string | null | undefined) => {

@@ -3,30 +3,30 @@ import { Refusal } from '$shared/api/client'
 import type { Server } from '$shared/api/server'
 import type { Proposal, ProposalRequest } from '$shared/api/types'
 
-const LOOK_MS = 400
+const POLL_MS = 400
 const RUNNING = ['waiting', 'riding', 'proving']
 
 export class ProposalJob {
   job = $state.raw<Proposal | null>(null)
   refusal = $state.raw<Refusal | null>(null)
-  asking = $state(false)
+  requesting = $state(false)
   private timer: ReturnType<typeof setTimeout> | null = null
-  // An answer counts only if nothing was asked after it.
+  // An answer counts only if no request was sent after it.
   private turn = 0
   private given_up = false
 
   constructor(private readonly server: Server) {}
 
   get running(): boolean {
-    return this.asking || (this.job !== null && RUNNING.includes(this.job.state))
+    return this.requesting || (this.job !== null && RUNNING.includes(this.job.state))
   }
 
   async begin(question: ProposalRequest): Promise<void> {
-    this.asking = true
+    this.requesting = true
     this.given_up = false
     this.job = this.refusal = null
-    await this.told(() => this.server.propose(question))
-    this.asking = false
+    await this.update(() => this.server.propose(question))
+    this.requesting = false
     if (this.given_up) await this.cancel()
   }
 
@@ -34,20 +34,20 @@ export class ProposalJob {
   async cancel(): Promise<void> {
     this.given_up = true
     const { job } = this
-    if (job && this.running) await this.told(() => this.server.cancelProposal(job.id))
+    if (job && this.running) await this.update(() => this.server.cancelProposal(job.id))
   }
 
-  /** The page is left: nobody waits for the answer any more. */
+  /** The page is left: the answer is no longer needed. */
   leave(): void {
     void this.cancel()
     if (this.timer) clearTimeout(this.timer)
     this.timer = null
   }
 
-  private async told(ask: () => Promise<Proposal>): Promise<void> {
+  private async update(send: () => Promise<Proposal>): Promise<void> {
     const turn = ++this.turn
     try {
-      const job = await ask()
+      const job = await send()
       if (turn !== this.turn) return
       this.job = job
     } catch (error) {
@@ -59,7 +59,7 @@ export class ProposalJob {
     if (this.timer) clearTimeout(this.timer)
     const { job } = this
     if (job && RUNNING.includes(job.state) && !this.given_up) {
-      this.timer = setTimeout(() => void this.told(() => this.server.proposal(job.id)), LOOK_MS)
+      this.timer = setTimeout(() => void this.update(() => this.server.proposal(job.id)), POLL_MS)
     }
   }
 }

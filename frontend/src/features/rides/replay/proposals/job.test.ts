@@ -7,9 +7,9 @@ import { ProposalJob } from './job.svelte'
 
 const named = (state: string) => ({ id: 'seven', state }) as Proposal
 const later = <T>() => {
-  let tell: (value: T) => void = () => undefined
-  const promise = new Promise<T>((resolve) => (tell = resolve))
-  return { promise, tell }
+  let settle: (value: T) => void = () => undefined
+  const promise = new Promise<T>((resolve) => (settle = resolve))
+  return { promise, settle }
 }
 
 it('is given up although its name came after the wish to end it', async () => {
@@ -23,27 +23,27 @@ it('is given up although its name came after the wish to end it', async () => {
 
   const begun = job.begin({} as ProposalRequest)
   await job.cancel()
-  answer.tell(named('waiting'))
+  answer.settle(named('waiting'))
   await begun
 
   expect(cancelled).toEqual(['seven'])
   expect([job.job?.state, job.running]).toEqual(['cancelled', false])
 })
 
-it('stays given up when an older look is answered late', async () => {
-  const look = later<Proposal>()
+it('stays given up when an older poll is answered late', async () => {
+  const poll = later<Proposal>()
   const server = {
     propose: () => Promise.resolve(named('riding')),
-    proposal: () => look.promise,
+    proposal: () => poll.promise,
     cancelProposal: () => Promise.resolve(named('cancelled')),
   } as unknown as Server
   const job = new ProposalJob(server)
   await job.begin({} as ProposalRequest)
-  await new Promise((soon) => setTimeout(soon, 500)) // the look is on its way
+  await new Promise((soon) => setTimeout(soon, 500)) // the poll is on its way
 
   await job.cancel()
-  look.tell(named('riding'))
-  await look.promise
+  poll.settle(named('riding'))
+  await poll.promise
 
   expect(job.job?.state).toBe('cancelled')
 })

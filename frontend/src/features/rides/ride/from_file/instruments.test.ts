@@ -23,9 +23,9 @@ it('names maker and product, but no product that is a number alone', () => {
   expect(deviceName(nothing)).toBe('')
 })
 
-it('tells serial number and battery where they are known', () => {
-  const known = { ...nothing, serial_number: '77', battery_status: 'low' }
-  expect(deviceLine(known, say)).toBe('serial 77 · battery state_low')
+it('shows serial number and battery where they are known', () => {
+  const device = { ...nothing, serial_number: '77', battery_status: 'low' }
+  expect(deviceLine(device, say)).toBe('serial 77 · battery state_low')
   expect(deviceLine({ ...nothing, battery_status: 'status_0' }, say)).toBe('')
 })
 

@@ -12,10 +12,10 @@ export function deviceName({ maker, product }: Instrument): string {
 }
 
 export function deviceLine({ serial_number, battery_status }: Instrument, say: Say): string {
-  const known = battery_status !== null && !battery_status.startsWith('status_')
+  const has_battery = battery_status !== null && !battery_status.startsWith('status_')
   return [
     serial_number === null ? '' : say('serial', { number: serial_number }),
-    known ? say('battery', { state: wordOf(say, 'state', battery_status) }) : '',
+    has_battery ? say('battery', { state: wordOf(say, 'state', battery_status) }) : '',
   ]
     .filter((one) => one !== '')
     .join(' · ')
@@ -27,7 +27,7 @@ export function wordOf(say: Say, of: 'kind' | 'sport' | 'state', word: string): 
   return key in en ? say(key as Key) : word.replaceAll('_', ' ')
 }
 
-/** What recorded a ride: by its file, else the unit it came from; '' where nobody knows. */
+/** What recorded a ride: by its file, else the unit it came from; '' where unknown. */
 export function recorderOf({ instruments, device }: Ride): string {
   const recorder = instruments.find(({ kind }) => kind === 'recorder')
   return (recorder && deviceName(recorder)) || (device.device_serial ?? '')

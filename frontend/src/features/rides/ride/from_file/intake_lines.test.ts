@@ -19,11 +19,11 @@ const nothing = {
   taken_as: {},
 }
 
-test('a file that is wholly in its ride has nothing to tell', () => {
+test('a file that is completely in its ride has no lines', () => {
   expect(intakeLines(nothing, say, locale)).toEqual([])
 })
 
-test('what is not simply a row is told with its count and reason', () => {
+test('what is not simply a row is listed with its count and reason', () => {
   const intake = {
     ...nothing,
     rows_kept: 56,
@@ -42,7 +42,7 @@ test('what is not simply a row is told with its count and reason', () => {
   ])
 })
 
-test('what an owner said, and where a date is from, is told', () => {
+test('answers of the owner, and where a date is from, are listed', () => {
   const taken_as = {
     speed: 'm/s',
     time_zone: 'Europe/Dublin',

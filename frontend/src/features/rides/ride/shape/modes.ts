@@ -1,4 +1,4 @@
-// The assist modes of a ride: which was chosen when, and how each is told apart.
+// The assist modes of a ride: which was chosen when, and the line style of each.
 import type { RideEvent } from '$shared/api/types'
 
 export interface ModeSpan {
@@ -7,25 +7,25 @@ export interface ModeSpan {
   mode: number
 }
 
-export interface ModeLook {
+export interface ModeStyle {
   token: string
-  /** In the drawing's pixels; empty for a whole line. */
+  /** In the drawing's pixels; empty for a solid line. */
   dash: string
   width: number
 }
 
-const looks: ModeLook[] = [
+const styles: ModeStyle[] = [
   { token: 'line-strong', dash: '', width: 1.5 },
   { token: 'speed', dash: '1 5', width: 3 },
   { token: 'cadence', dash: '9 5', width: 3 },
   { token: 'motor', dash: '', width: 3 },
   { token: 'rider', dash: '', width: 5 },
 ]
-const unknown: ModeLook = { token: 'accent', dash: '', width: 3 }
+const unknown: ModeStyle = { token: 'accent', dash: '', width: 3 }
 
 /** A slot's line; null where no mode is known. */
-export function modeLook(mode: number | null): ModeLook {
-  return mode === null ? unknown : (looks[mode] ?? { ...unknown, dash: '2 2' })
+export function modeStyle(mode: number | null): ModeStyle {
+  return mode === null ? unknown : (styles[mode] ?? { ...unknown, dash: '2 2' })
 }
 
 /** Each mode from its choice to the next; nothing before the first. */

@@ -18,9 +18,9 @@ export function outline(
 ): Outline | null {
   const [channel] = series.channels
   if (!channel) return null
-  const there = channel.max.filter((value) => !Number.isNaN(value))
-  if (there.length === 0) return null
-  const greatest = there.reduce((a, b) => Math.max(a, b))
+  const valid = channel.max.filter((value) => !Number.isNaN(value))
+  if (valid.length === 0) return null
+  const greatest = valid.reduce((a, b) => Math.max(a, b))
   const least = channel.min
     .filter((value) => !Number.isNaN(value))
     .reduce((a, b) => Math.min(a, b))

@@ -32,29 +32,29 @@ it('draws a square of ground as a square, north up', () => {
 
 it('goes on over the antimeridian', () => {
   const here = drawn(track([[0, 0], [0, 0.01], [0.01, 0.01]]))
-  const there = drawn(track([[0, 179.995], [0, -179.995], [0.01, -179.995]]))
+  const shifted = drawn(track([[0, 179.995], [0, -179.995], [0.01, -179.995]]))
 
-  expect(there.m_per_px).toBeCloseTo(here.m_per_px, 6)
-  expect(there.at(10)?.x).toBeCloseTo(here.at(10)?.x ?? 0, 3)
+  expect(shifted.m_per_px).toBeCloseTo(here.m_per_px, 6)
+  expect(shifted.at(10)?.x).toBeCloseTo(here.at(10)?.x ?? 0, 3)
 })
 
 it('leaves a gap open, and has no place in it', () => {
   const shape = drawn(track([[0, 0], [0, 0.01], null, [0, 0.02], [0, 0.03]]))
 
   expect(shape.at(20)).toBeNull()
-  expect(shape.pieces([]).map(({ points }) => points.length)).toEqual([2, 2])
+  expect(shape.segments([]).map(({ points }) => points.length)).toEqual([2, 2])
 })
 
 it('changes the line where the mode changes', () => {
   const shape = drawn(track([[0, 0], [0, 0.02]]))
 
-  const pieces = shape.pieces([
+  const segments = shape.segments([
     { from_s: 0, to_s: 4, mode: 1 },
     { from_s: 4, to_s: 10, mode: 3 },
   ])
 
-  expect(pieces.map(({ mode }) => mode)).toEqual([1, 3])
-  const [begin, change] = [pieces[0]?.points[0]?.x ?? 0, pieces[0]?.points[1]?.x ?? 0]
+  expect(segments.map(({ mode }) => mode)).toEqual([1, 3])
+  const [begin, change] = [segments[0]?.points[0]?.x ?? 0, segments[0]?.points[1]?.x ?? 0]
   expect((change - begin) / (shape.end.x - begin)).toBeCloseTo(0.4)
 })
 
@@ -62,7 +62,7 @@ it('puts marks at round kilometres of the way, and finds the moment of a place',
   const one = track([[0, 0], [0, 0.1], [0, 0.2]], [0, 3000, 6000])
   const shape = drawn(one)
 
-  expect(shape.marks(one, 1000).map(({ way }) => way)).toEqual([1, 2, 3, 4, 5])
+  expect(shape.marks(one, 1000).map(({ distance }) => distance)).toEqual([1, 2, 3, 4, 5])
   expect(shape.nearest({ x: 440, y: 150 })).toBe(20)
 })
 

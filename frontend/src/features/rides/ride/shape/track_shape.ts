@@ -1,4 +1,5 @@
-// A track drawn: points of a ride in pixels, in pieces of one mode, with marks at whole kilometres.
+// A track drawn: points of a ride in pixels, in segments of one mode, with marks at whole
+// kilometres.
 import type { Track } from '$shared/api/types'
 import { LaidAxis } from '$shared/charts/traces/trace_axis'
 import { niceStep } from '$shared/charts/plot_axis'
@@ -12,14 +13,14 @@ export interface Spot {
   y: number
 }
 
-export interface Piece {
+export interface Segment {
   mode: number | null
   points: Spot[]
 }
 
 export interface KmMark extends Spot {
   /** In the reader's unit of way. */
-  way: number
+  distance: number
 }
 
 /** Local equirectangular: metres east and south of the first position, true at the mean latitude;
@@ -32,23 +33,23 @@ export class TrackShape {
   private readonly south: LaidAxis
 
   private constructor(
-    private readonly known: { t_s: number[]; x: number[]; y: number[] },
+    private readonly points: { t_s: number[]; x: number[]; y: number[] },
     private readonly open: [from_s: number, to_s: number][],
     m_per_px: number,
   ) {
-    const last = known.t_s.length - 1
+    const last = points.t_s.length - 1
     this.m_per_px = m_per_px
-    this.east = new LaidAxis('time', known.t_s, known.x)
-    this.south = new LaidAxis('time', known.t_s, known.y)
-    this.begin = { x: known.x[0] ?? 0, y: known.y[0] ?? 0 }
-    this.end = { x: known.x[last] ?? 0, y: known.y[last] ?? 0 }
+    this.east = new LaidAxis('time', points.t_s, points.x)
+    this.south = new LaidAxis('time', points.t_s, points.y)
+    this.begin = { x: points.x[0] ?? 0, y: points.y[0] ?? 0 }
+    this.end = { x: points.x[last] ?? 0, y: points.y[last] ?? 0 }
   }
 
   /** null for a ride without positions. */
   static of(track: Track, width: number, height: number, margin: number): TrackShape | null {
     const { t_s, latitude_deg, longitude_deg } = track
     if (!latitude_deg || !longitude_deg) return null
-    const known: { t_s: number[]; x: number[]; y: number[] } = { t_s: [], x: [], y: [] }
+    const points: { t_s: number[]; x: number[]; y: number[] } = { t_s: [], x: [], y: [] }
     const gaps: [number, number][] = []
     let silent = false
     let before: number | null = null
@@ -62,19 +63,19 @@ export class TrackShape {
       // The shorter way round the earth from the point before.
       const round: number = before === null ? 0 : Math.round((before - longitude) / 360) * 360
       before = longitude + round
-      if (silent && known.t_s.length > 0) gaps.push([known.t_s.at(-1) ?? 0, at_s])
+      if (silent && points.t_s.length > 0) gaps.push([points.t_s.at(-1) ?? 0, at_s])
       silent = false
-      known.t_s.push(at_s)
-      known.x.push(before)
-      known.y.push(-latitude)
+      points.t_s.push(at_s)
+      points.x.push(before)
+      points.y.push(-latitude)
     }
-    if (known.t_s.length < 2) return null
-    const mean = -known.y.reduce((sum, one) => sum + one, 0) / known.y.length
+    if (points.t_s.length < 2) return null
+    const mean = -points.y.reduce((sum, one) => sum + one, 0) / points.y.length
     const narrow = Math.cos((mean * Math.PI) / 180)
-    known.x = known.x.map((degrees) => degrees * narrow * M_PER_DEG)
-    known.y = known.y.map((degrees) => degrees * M_PER_DEG)
-    const [left, right] = extent(known.x)
-    const [top, bottom] = extent(known.y)
+    points.x = points.x.map((degrees) => degrees * narrow * M_PER_DEG)
+    points.y = points.y.map((degrees) => degrees * M_PER_DEG)
+    const [left, right] = extent(points.x)
+    const [top, bottom] = extent(points.y)
     const m_per_px = Math.max(
       (right - left) / (width - 2 * margin),
       (bottom - top) / (height - 2 * margin),
@@ -82,9 +83,9 @@ export class TrackShape {
     )
     const fit = (middle: number, size: number) => (at: number) =>
       (at - middle) / m_per_px + size / 2
-    known.x = known.x.map(fit((left + right) / 2, width))
-    known.y = known.y.map(fit((top + bottom) / 2, height))
-    return new TrackShape(known, gaps, m_per_px)
+    points.x = points.x.map(fit((left + right) / 2, width))
+    points.y = points.y.map(fit((top + bottom) / 2, height))
+    return new TrackShape(points, gaps, m_per_px)
   }
 
   /** Where the bike was; null in a gap. */
@@ -95,17 +96,17 @@ export class TrackShape {
 
   /** The moment at which the track passes nearest to a place of the drawing. */
   nearest({ x, y }: Spot): number {
-    let [best, found] = [Infinity, 0]
-    for (const [i, t_s] of this.known.t_s.entries()) {
-      const off = Math.hypot((this.known.x[i] ?? 0) - x, (this.known.y[i] ?? 0) - y)
-      if (off < best) [best, found] = [off, t_s]
+    let [best, nearest_s] = [Infinity, 0]
+    for (const [i, t_s] of this.points.t_s.entries()) {
+      const off = Math.hypot((this.points.x[i] ?? 0) - x, (this.points.y[i] ?? 0) - y)
+      if (off < best) [best, nearest_s] = [off, t_s]
     }
-    return found
+    return nearest_s
   }
 
   /** Lines of one mode each, none over a gap, from one moment to another. */
-  pieces(modes: readonly ModeSpan[], from_s = -Infinity, to_s = Infinity): Piece[] {
-    const { t_s } = this.known
+  segments(modes: readonly ModeSpan[], from_s = -Infinity, to_s = Infinity): Segment[] {
+    const { t_s } = this.points
     const first = Math.max(from_s, t_s[0] ?? 0)
     const last = Math.min(to_s, t_s.at(-1) ?? 0)
     const edges = [
@@ -129,13 +130,13 @@ export class TrackShape {
   marks(track: Track, m_per_unit: number): KmMark[] {
     const { distance_m } = track
     if (!distance_m) return []
-    const way = new LaidAxis('distance', track.t_s, distance_m)
-    const whole = (distance_m.at(-1) ?? 0) / m_per_unit
-    const step = Math.max(niceStep(whole / 6), 0.1)
-    const count = Math.floor(whole / step - 1e-9)
+    const distance = new LaidAxis('distance', track.t_s, distance_m)
+    const total = (distance_m.at(-1) ?? 0) / m_per_unit
+    const step = Math.max(niceStep(total / 6), 0.1)
+    const count = Math.floor(total / step - 1e-9)
     return Array.from({ length: count }, (_, i) => (i + 1) * step).flatMap((at) => {
-      const spot = this.at(way.moment(at * m_per_unit))
-      return spot ? { way: Number(at.toFixed(1)), ...spot } : []
+      const spot = this.at(distance.moment(at * m_per_unit))
+      return spot ? { distance: Number(at.toFixed(1)), ...spot } : []
     })
   }
 }

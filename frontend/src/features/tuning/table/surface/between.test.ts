@@ -4,7 +4,7 @@ import { columnAt, heightAt, rowAt } from './between'
 import type { Picture } from './surface_shown'
 
 const picture: Picture = {
-  shown: 'given_nm',
+  shown: 'delivered_nm',
   speeds_kmh: [0, 10],
   torque_rates: [0, 0.5],
   z: [
@@ -13,7 +13,7 @@ const picture: Picture = {
   ],
   top: 60,
   unit: 'Nm',
-  asked: null,
+  demanded: null,
   taken_by: null,
 }
 

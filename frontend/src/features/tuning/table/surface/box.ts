@@ -46,15 +46,15 @@ export function boxOf(solid: Solid, { x, y, up }: Record<'x' | 'y' | 'up', Side>
   ]
   const at = (edge: { x: number; y: number }, share: number) => solid.at(edge.x, edge.y, share)
   const left = edges.sort((a, b) => at(a, 0)[0] - at(b, 0)[0])[0] ?? far
-  const alongX = (share: number, px: number, text: string) =>
+  const onX = (share: number, px: number, text: string) =>
     beyond(solid.at(share, near.y, 0), solid.at(share, 0.5, 0), px, text)
-  const alongY = (share: number, px: number, text: string) =>
+  const onY = (share: number, px: number, text: string) =>
     beyond(solid.at(near.x, share, 0), solid.at(0.5, share, 0), px, text)
   const words: Word[] = [
-    ...ticks(x).map(({ share, text }) => alongX(share, TICK_PX, text)),
-    ...ticks(y).map(({ share, text }) => alongY(share, TICK_PX, text)),
-    alongX(0.5, TITLE_PX, x.title),
-    alongY(0.5, TITLE_PX, y.title),
+    ...ticks(x).map(({ share, text }) => onX(share, TICK_PX, text)),
+    ...ticks(y).map(({ share, text }) => onY(share, TICK_PX, text)),
+    onX(0.5, TITLE_PX, x.title),
+    onY(0.5, TITLE_PX, y.title),
     ...ticks(up).map(({ share, text }): Word => {
       const [across, down] = at(left, share)
       return { text, at: [across - 6, down + 4], anchor: 'end' }

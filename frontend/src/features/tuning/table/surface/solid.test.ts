@@ -1,7 +1,7 @@
-/* Goal: from wherever the surface is looked at, it is whole within its frame, what is nearer is
+/* Goal: from every viewpoint the surface is complete within its frame, what is nearer is
 painted later, and what is pointed at is what lies there. */
 import { describe, expect, it } from 'vitest'
-import { FIRST_LOOK, Solid, turned, within, type Pixel } from './solid'
+import { INITIAL_VIEW, Solid, turned, within, type Pixel } from './solid'
 
 const TURNS = Array.from({ length: 24 }, (_, i) => (i * Math.PI) / 12 + 0.05)
 const [WIDTH, HEIGHT, CELLS] = [640, 500, 6]
@@ -37,7 +37,7 @@ describe.each(TURNS)('turned by %f', (turn) => {
 })
 
 it('stands as the map: x to the right, y towards the eye, values upwards', () => {
-  const solid = new Solid(FIRST_LOOK, WIDTH, HEIGHT)
+  const solid = new Solid(INITIAL_VIEW, WIDTH, HEIGHT)
 
   expect(solid.at(1, 0.5, 0)[0]).toBeGreaterThan(solid.at(0, 0.5, 0)[0])
   expect(solid.at(0.5, 1, 0)[1]).toBeGreaterThan(solid.at(0.5, 0, 0)[1])
@@ -45,8 +45,8 @@ it('stands as the map: x to the right, y towards the eye, values upwards', () =>
 })
 
 it('is never seen from below nor from straight above', () => {
-  expect(turned(FIRST_LOOK, { turn: 0, tilt: 9 }).tilt).toBeLessThan(Math.PI / 2)
-  expect(turned(FIRST_LOOK, { turn: 0, tilt: -9 }).tilt).toBeGreaterThan(0)
+  expect(turned(INITIAL_VIEW, { turn: 0, tilt: 9 }).tilt).toBeLessThan(Math.PI / 2)
+  expect(turned(INITIAL_VIEW, { turn: 0, tilt: -9 }).tilt).toBeGreaterThan(0)
 })
 
 it('knows what lies within four corners', () => {

@@ -1,18 +1,18 @@
 // A surface over two axes as seen from a side: where its places lie on the screen, and its cells
-// from the farthest to the nearest. Looked at from far away, so that equal lengths stay equal.
+// from the farthest to the nearest. Seen from far away, so that equal lengths stay equal.
 
-/** From where it is looked at: turned about what is upright, and from how high; in radians. */
-export interface Look {
+/** The viewpoint: turn about the vertical, and tilt; in radians. */
+export interface View {
   turn: number
   tilt: number
 }
 
-export const FIRST_LOOK: Look = { turn: 0.75, tilt: 0.55 }
+export const INITIAL_VIEW: View = { turn: 0.75, tilt: 0.55 }
 const [TILT_LEAST, TILT_MOST] = [0.12, 1.4]
 const HEIGHT = 0.62 // of the surface, where its sides are 1
 
-/** A look turned and raised by so much. */
-export function turned({ turn, tilt }: Look, by: Look): Look {
+/** The view turned and tilted further. */
+export function turned({ turn, tilt }: View, by: View): View {
   const raised = Math.min(TILT_MOST, Math.max(TILT_LEAST, tilt + by.tilt))
   return { turn: (turn + by.turn) % (2 * Math.PI), tilt: raised }
 }
@@ -25,14 +25,14 @@ export class Solid {
   private readonly scale: number
 
   constructor(
-    private readonly look: Look,
+    private readonly view: View,
     private readonly width: number,
     private readonly height: number,
   ) {
-    this.sin = Math.sin(look.turn)
-    this.cos = Math.cos(look.turn)
+    this.sin = Math.sin(view.turn)
+    this.cos = Math.cos(view.turn)
     // Room for the words of the axes; as large as any turn lets it be.
-    const upright = Math.SQRT2 * Math.sin(look.tilt) + HEIGHT * Math.cos(look.tilt)
+    const upright = Math.SQRT2 * Math.sin(view.tilt) + HEIGHT * Math.cos(view.tilt)
     this.scale = Math.max(1, Math.min((width - 110) / Math.SQRT2, (height - 76) / upright))
   }
 
@@ -42,7 +42,7 @@ export class Solid {
     const [u, v, w] = [x - 0.5, 0.5 - y, (up - 0.5) * HEIGHT]
     const across = u * this.cos - v * this.sin
     const away = u * this.sin + v * this.cos
-    const raised = away * Math.sin(this.look.tilt) + w * Math.cos(this.look.tilt)
+    const raised = away * Math.sin(this.view.tilt) + w * Math.cos(this.view.tilt)
     return [this.width / 2 + this.scale * across, this.height / 2 - 8 - this.scale * raised]
   }
 

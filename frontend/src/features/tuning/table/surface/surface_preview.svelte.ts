@@ -29,54 +29,54 @@ export class SurfacePreview {
   private readonly gains = new NewestAnswer<GainSurface>()
   private readonly torques = new NewestAnswer<TorqueSurface>()
   private readonly findings = new NewestAnswer<LintReport>()
-  private asked: LintRequest | null = null
+  private current: LintRequest | null = null
 
   constructor(private readonly server: Server) {}
 
   get gain(): GainSurface | null {
-    return this.gains.answer
+    return this.gains.value
   }
 
   get torque(): TorqueSurface | null {
-    return this.torques.answer
+    return this.torques.value
   }
 
-  /** Whether what is shown waits for the server: whatever else is asked of it would delay it. */
+  /** Whether what is shown waits for the server: any other request would delay it. */
   get waiting(): boolean {
     return this.gains.running || this.torques.running
   }
 
   get lint(): LintReport | null {
-    return this.findings.answer
+    return this.findings.value
   }
 
-  get trouble(): string | null {
+  get problem(): string | null {
     const refused = this.gains.refusal ?? this.torques.refusal ?? this.findings.refusal
     return refused?.message ?? null
   }
 
-  /** The surface comes first: the findings keep the server longer, as they are proven. */
-  async ask(question: LintRequest): Promise<void> {
-    this.asked = question
+  /** The surface comes first: the findings take the server longer, as they are proven. */
+  async request(question: LintRequest): Promise<void> {
+    this.current = question
     this.findings.stop()
     const table = question.fuzzy_table
     const { speeds_kmh, torque_rates } = grid(table, GAIN_POINTS)
-    await this.gains.ask(async (signal) => {
+    await this.gains.request(async (signal) => {
       const { gain } = await this.server.surface(table, speeds_kmh, torque_rates, signal)
       return { speeds_kmh, torque_rates, gain }
     })
-    if (this.asked !== question) return
-    await this.findings.ask((signal) => this.server.lint(question, signal))
+    if (this.current !== question) return
+    await this.findings.request((signal) => this.server.lint(question, signal))
   }
 
   /** What comes of the table at the crank, for a steady push in one of its modes. */
-  async askTorque(table: FuzzyTable, question: TorqueQuestion): Promise<void> {
-    const asked = { ...question, ...grid(table, TORQUE_POINTS) }
-    await this.torques.ask((signal) => this.server.torqueSurface(asked, signal))
+  async requestTorque(table: FuzzyTable, question: TorqueQuestion): Promise<void> {
+    const current = { ...question, ...grid(table, TORQUE_POINTS) }
+    await this.torques.request((signal) => this.server.torqueSurface(current, signal))
   }
 
   stop(): void {
-    this.asked = null
+    this.current = null
     for (const newest of [this.gains, this.torques, this.findings]) newest.stop()
   }
 }

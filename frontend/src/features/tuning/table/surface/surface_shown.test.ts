@@ -1,5 +1,5 @@
-/* Goal: the picture of the surface is what the law answered, in the unit that was asked for, and
-says who took what. */
+/* Goal: the picture of the surface is what the law answered, in the requested unit, and says which
+limit took what. */
 import { expect, it } from 'vitest'
 import type { TorqueSurface } from '$shared/api/types'
 import { pictureOf, takers } from './surface_shown'
@@ -9,11 +9,11 @@ const CUTOFF = 0x0002
 const torque: TorqueSurface = {
   speeds_kmh: [0, 10],
   torque_rates: [0, 0.5],
-  asked_nm: [
+  demanded_nm: [
     [20, 60],
     [20, 60],
   ],
-  given_nm: [
+  delivered_nm: [
     [20, 40],
     [0, 0],
   ],
@@ -28,15 +28,15 @@ const torque: TorqueSurface = {
 const gain = { speeds_kmh: [0, 10], torque_rates: [0, 1], gain: [[0.1, 0.2]] }
 
 it('shows the gain until the torque is known', () => {
-  expect(pictureOf('given_nm', gain, null, 60)?.shown).toBe('gain')
-  expect(pictureOf('given_nm', null, null, 60)).toBeNull()
+  expect(pictureOf('delivered_nm', gain, null, 60)?.shown).toBe('gain')
+  expect(pictureOf('delivered_nm', null, null, 60)).toBeNull()
 })
 
-it('tells what arrives, what was asked, and which limit took the rest', () => {
-  const picture = pictureOf('given_nm', gain, torque, 60)
+it('shows what is delivered, what was demanded, and which limit took the rest', () => {
+  const picture = pictureOf('delivered_nm', gain, torque, 60)
 
-  expect(picture?.z).toEqual(torque.given_nm)
-  expect(picture?.asked).toEqual(torque.asked_nm)
+  expect(picture?.z).toEqual(torque.delivered_nm)
+  expect(picture?.demanded).toEqual(torque.demanded_nm)
   expect(picture?.taken_by).toEqual([
     [[], ['market']],
     [['speed_cutoff'], ['speed_cutoff', 'market']],
@@ -47,6 +47,6 @@ it('tells what arrives, what was asked, and which limit took the rest', () => {
   ])
 })
 
-it('tells power at the speed the crank turns with', () => {
-  expect(pictureOf('asked_w', gain, torque, 60)?.z[0]?.[1]).toBeCloseTo(60 * 2 * Math.PI)
+it('gives power at the cadence', () => {
+  expect(pictureOf('demanded_w', gain, torque, 60)?.z[0]?.[1]).toBeCloseTo(60 * 2 * Math.PI)
 })

@@ -4,7 +4,7 @@ import { flagNames } from '$shared/stream/flags'
 import type { GainSurface } from './surface_preview.svelte'
 import type { Place } from './trail.svelte'
 
-export const SHOWN = ['gain', 'asked_nm', 'given_nm', 'asked_w', 'given_w'] as const
+export const SHOWN = ['gain', 'demanded_nm', 'delivered_nm', 'demanded_w', 'delivered_w'] as const
 export type Shown = (typeof SHOWN)[number]
 
 /** The largest gain a table can hold: a fixed scale makes edits comparable. */
@@ -20,13 +20,13 @@ export interface Picture {
   z: number[][]
   top: number
   unit: '' | 'Nm' | 'W'
-  /** What the law asks where what arrives is shown; null for anything else. */
-  asked: number[][] | null
+  /** What the law demands where the delivered torque is shown; null for anything else. */
+  demanded: number[][] | null
   /** By which limits it is less than that; null for anything else. */
   taken_by: string[][][] | null
 }
 
-/** What draws a picture is told. */
+/** The input of what draws a picture. */
 export interface Drawn {
   picture: Picture
   /** What is shown, with its unit. */
@@ -40,45 +40,45 @@ export interface Drawn {
   trail: Place[]
 }
 
-const OFF_THE_WAY = ['ramp_up', 'ramp_down', 'taper']
+const TRANSIENT_LIMITS = ['ramp_up', 'ramp_down', 'taper']
 
-/** The picture of what is wanted; of the gain until the rest is known. top_nm: of the scale, at the
-    crank. */
+/** The picture of the requested quantity; of the gain until the torque is there. top_nm: of the
+    scale, at the crank. */
 export function pictureOf(
-  wanted: Shown,
+  requested: Shown,
   gain: GainSurface | null,
   torque: TorqueSurface | null,
   top_nm: number,
 ): Picture | null {
-  if (wanted === 'gain' || !torque) {
+  if (requested === 'gain' || !torque) {
     if (!gain) return null
-    const plain = { top: GAIN_MAX, unit: '' as const, asked: null, taken_by: null }
+    const plain = { top: GAIN_MAX, unit: '' as const, demanded: null, taken_by: null }
     return { shown: 'gain', ...gain, z: gain.gain, ...plain }
   }
   const { speeds_kmh, torque_rates, limit_flags } = torque
-  const watts = wanted.endsWith('_w')
+  const watts = requested.endsWith('_w')
   const times = (rows: number[][]) =>
     watts ? rows.map((row) => row.map((nm) => nm * torque.crank_rad_per_s)) : rows
   const frame = {
-    shown: wanted,
+    shown: requested,
     speeds_kmh,
     torque_rates,
     top: watts ? top_nm * torque.crank_rad_per_s : top_nm,
     unit: watts ? ('W' as const) : ('Nm' as const),
   }
-  if (wanted.startsWith('asked')) {
-    return { ...frame, z: times(torque.asked_nm), asked: null, taken_by: null }
+  if (requested.startsWith('demanded')) {
+    return { ...frame, z: times(torque.demanded_nm), demanded: null, taken_by: null }
   }
-  const taken_by = torque.given_nm.map((row, i) =>
+  const taken_by = torque.delivered_nm.map((row, i) =>
     row.map((given, j) => {
-      const asked = torque.asked_nm[i]?.[j] ?? 0
-      if (asked - given <= TAKEN_SHARE * asked) return []
+      const demanded = torque.demanded_nm[i]?.[j] ?? 0
+      if (demanded - given <= TAKEN_SHARE * demanded) return []
       return flagNames('limit_flags', limit_flags[i]?.[j] ?? 0).filter(
-        (name) => !OFF_THE_WAY.includes(name),
+        (name) => !TRANSIENT_LIMITS.includes(name),
       )
     }),
   )
-  return { ...frame, z: times(torque.given_nm), asked: times(torque.asked_nm), taken_by }
+  return { ...frame, z: times(torque.delivered_nm), demanded: times(torque.demanded_nm), taken_by }
 }
 
 /** Every limit that takes something anywhere, and how much of the grid it is. */

@@ -19,7 +19,7 @@ it('adds nothing while the bike stands, and keeps where it stands', () => {
   expect(speeds(trail)).toEqual([0])
 })
 
-it('forgets all where nobody knows the place', () => {
+it('forgets all where the place is unknown', () => {
   const trail = new Trail()
   trail.note(at(5), 0)
   trail.note(null, 50)

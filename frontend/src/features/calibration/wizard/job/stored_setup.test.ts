@@ -1,7 +1,7 @@
 /* Goal: what is typed of a calibration's plan is there again after a reload, for its own job
    alone. */
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest'
-import { FIRST, keepTyped, typedOf } from './kept_setup'
+import { FIRST, storeTyped, typedOf } from './stored_setup'
 import type { Job } from './types'
 
 const job = (changes: Partial<Job> = {}): Job =>
@@ -10,17 +10,17 @@ const typed = { ...structuredClone(FIRST), arm_m: 0.1725 }
 
 describe('a plan that is being typed', () => {
   beforeEach(() => {
-    const kept = new Map<string, string>()
+    const storage = new Map<string, string>()
     vi.stubGlobal('localStorage', {
-      getItem: (name: string) => kept.get(name) ?? null,
-      setItem: (name: string, value: string) => kept.set(name, value),
-      removeItem: (name: string) => kept.delete(name),
+      getItem: (name: string) => storage.get(name) ?? null,
+      setItem: (name: string, value: string) => storage.set(name, value),
+      removeItem: (name: string) => storage.delete(name),
     })
   })
   afterEach(() => vi.unstubAllGlobals())
 
-  it('is there again, with its reason', () => {
-    keepTyped(job(), typed, 'new cranks')
+  it('is restored, with its reason', () => {
+    storeTyped(job(), typed, 'new cranks')
 
     expect(typedOf(job())).toMatchObject({ setup: { arm_m: 0.1725 }, reason: 'new cranks' })
   })
@@ -30,17 +30,17 @@ describe('a plan that is being typed', () => {
     ['another unit', job({ unit_key: 'ebl:22' })],
     ['a plan that was made meanwhile', job({ setup: { arm_m: 0.165 } as Job['setup'] })],
   ])('is not of %s', (_, other) => {
-    keepTyped(job(), typed, '')
+    storeTyped(job(), typed, '')
 
     expect(typedOf(other)).toBeNull()
   })
 
   it('goes with what it became, and with its job', () => {
     for (const end of [
-      () => keepTyped(job(), structuredClone(FIRST), ''),
-      () => keepTyped(job({ closed_at: '2026-11-27T08:00:00Z' }), typed, 'new cranks'),
+      () => storeTyped(job(), structuredClone(FIRST), ''),
+      () => storeTyped(job({ closed_at: '2026-11-27T08:00:00Z' }), typed, 'new cranks'),
     ]) {
-      keepTyped(job(), typed, 'new cranks')
+      storeTyped(job(), typed, 'new cranks')
       end()
       expect(typedOf(job())).toBeNull()
     }

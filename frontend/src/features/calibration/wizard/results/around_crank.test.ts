@@ -17,18 +17,18 @@ const job = {
 } as unknown as Job
 
 it('a load on a steep crank counts against what hangs there, a zero not at all', () => {
-  const found = aroundCrank(job)
+  const points = aroundCrank(job)
 
-  expect(found.map((one) => one.capture)).toEqual([1, 2, 3, 4])
-  expect(found[2]?.left_pct).toBeCloseTo(1.0)
+  expect(points.map((one) => one.capture)).toEqual([1, 2, 3, 4])
+  expect(points[2]?.left_pct).toBeCloseTo(1.0)
 })
 
 it('each pedal has its own mean at each angle', () => {
-  const found = aroundCrank(job)
+  const points = aroundCrank(job)
 
-  expect(meansOf(found, 'right').map((one) => [one.angle_deg, one.left_pct])).toEqual([
+  expect(meansOf(points, 'right').map((one) => [one.angle_deg, one.left_pct])).toEqual([
     [0, 1.5],
     [60, expect.closeTo(1.0)],
   ])
-  expect(meansOf(found, 'left')).toHaveLength(1)
+  expect(meansOf(points, 'left')).toHaveLength(1)
 })

@@ -1,4 +1,4 @@
-// How one ride is looked at: its window, axis, rows and cursor, and the address that holds them.
+// How one ride is displayed: its window, axis, rows and cursor, and the address that holds them.
 import { NewestAnswer } from '$shared/api/newest_answer.svelte'
 import type { Server } from '$shared/api/server'
 import type { Ride, RideEnergy, Track } from '$shared/api/types'
@@ -7,13 +7,13 @@ import { LaidAxis, timeAxis, type AxisKind, type TraceAxis } from '$shared/chart
 import type { Cursor, TraceRow } from '$shared/charts/traces/trace_line'
 import { CursorReading } from './cursor_reading.svelte'
 import { modeSpans, type ModeSpan } from './shape/modes'
-import { keptRows, keepRows } from './kept_rows'
+import { storedRows, storeRows } from './stored_rows'
 import { rowsOf } from './traces'
 
 const AROUND_S = 30
 const KINDS: readonly AxisKind[] = ['time', 'moving', 'distance']
 
-export class RideLook implements Cursor {
+export class RideDisplay implements Cursor {
   readonly view: RideView | null
   readonly rows: TraceRow[]
   readonly missing: string[]
@@ -32,9 +32,9 @@ export class RideLook implements Cursor {
     query: URLSearchParams,
   ) {
     const { all, usual, missing } = rowsOf(ride)
-    const asked = query.get('show')?.split(',') ?? keptRows()
-    const known = all.map((row) => row.key)
-    const chosen = asked.filter((key) => known.includes(key))
+    const requested = query.get('show')?.split(',') ?? storedRows()
+    const available = all.map((row) => row.key)
+    const chosen = requested.filter((key) => available.includes(key))
     this.rows = all
     this.missing = missing
     this.keys = chosen.length > 0 ? chosen : usual
@@ -48,23 +48,23 @@ export class RideLook implements Cursor {
       : null
     const t_s = numberIn(query, 't_s')
     if (t_s !== null) this.move(t_s)
-    this.wanted = KINDS.find((kind) => kind === query.get('axis')) ?? 'time'
+    this.requested_axis = KINDS.find((kind) => kind === query.get('axis')) ?? 'time'
   }
 
   private readonly usual: string[]
-  private readonly wanted: AxisKind
+  private readonly requested_axis: AxisKind
   private readonly left = new AbortController()
 
-  /** Fetches what stands beside the traces. */
+  /** Fetches what is shown with the traces. */
   async load(): Promise<void> {
     const { id, state } = this.ride
-    if (state === 'done') void this.energy.ask((signal) => this.server.energy(id, signal))
+    if (state === 'done') void this.energy.request((signal) => this.server.energy(id, signal))
     if (!this.view) return
     // The page says by itself what is wrong with a ride.
     const { signal } = this.left
     this.track = await this.server.track(id, signal).catch(() => null)
     if (signal.aborted) return
-    if (this.wanted !== 'time') this.lay(this.wanted)
+    if (this.requested_axis !== 'time') this.lay(this.requested_axis)
   }
 
   get shown(): TraceRow[] {
@@ -75,7 +75,7 @@ export class RideLook implements Cursor {
     return this.shown.flatMap((row) => row.lines.map((line) => line.channel))
   }
 
-  /** The axes that this ride tells. */
+  /** The axes that this ride has. */
   offers(kind: AxisKind): boolean {
     return kind === 'time' || this.axisOf(kind) !== timeAxis
   }
@@ -99,7 +99,7 @@ export class RideLook implements Cursor {
       : this.rows.map((row) => row.key).filter((one) => one === key || this.keys.includes(one))
     if (keys.length === 0) return
     this.keys = keys
-    keepRows(keys.join() === this.usual.join() ? [] : keys)
+    storeRows(keys.join() === this.usual.join() ? [] : keys)
     this.view?.choose(this.channels, this.view.px)
   }
 
@@ -142,25 +142,25 @@ export class RideLook implements Cursor {
   /** The event after the cursor; after the last one the first. */
   private next(): void {
     const { events } = this.ride
-    const found = events.find(({ t_s }) => t_s > (this.t_s ?? -1) + 0.001) ?? events[0]
-    if (found) this.show(found.t_s)
+    const next = events.find(({ t_s }) => t_s > (this.t_s ?? -1) + 0.001) ?? events[0]
+    if (next) this.show(next.t_s)
   }
 
   /** What a link holds, so that it shows what its sender saw. */
   get query(): string {
-    const told: string[] = []
-    if (this.view && !this.view.whole) {
+    const parts: string[] = []
+    if (this.view && !this.view.is_complete) {
       const { from_s, to_s } = this.view.window
-      told.push(`from_s=${from_s.toFixed(2)}`, `to_s=${to_s.toFixed(2)}`)
+      parts.push(`from_s=${from_s.toFixed(2)}`, `to_s=${to_s.toFixed(2)}`)
     }
     // Until the track is here, the link's own.
-    const axis = this.track ? this.axis : this.wanted
-    if (axis !== 'time') told.push(`axis=${axis}`)
+    const axis = this.track ? this.axis : this.requested_axis
+    if (axis !== 'time') parts.push(`axis=${axis}`)
     if (this.keys.join() !== this.usual.join()) {
-      told.push(`show=${this.keys.map(encodeURIComponent).join()}`)
+      parts.push(`show=${this.keys.map(encodeURIComponent).join()}`)
     }
-    if (this.t_s !== null) told.push(`t_s=${this.t_s.toFixed(2)}`)
-    return told.length > 0 ? `?${told.join('&')}` : ''
+    if (this.t_s !== null) parts.push(`t_s=${this.t_s.toFixed(2)}`)
+    return parts.length > 0 ? `?${parts.join('&')}` : ''
   }
 
   stop(): void {

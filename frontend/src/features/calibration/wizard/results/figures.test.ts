@@ -4,7 +4,7 @@ import { expect, it } from 'vitest'
 import type { Job } from '../job/types'
 import { correctedNm, straightResiduals } from './figures'
 
-const pieces = {
+const piecewise = {
   reading_nm: [0, 20, 40],
   correction_nm: [0.1, 0.3, -0.1],
   standard_nm: [0.01, 0.01, 0.01],
@@ -19,7 +19,7 @@ it.each([
   [30, 30.1],
   [60, 59.9],
 ])('%d Nm is corrected to %d Nm', (reading, corrected) => {
-  expect(correctedNm(pieces, reading)).toBeCloseTo(corrected, 10)
+  expect(correctedNm(piecewise, reading)).toBeCloseTo(corrected, 10)
 })
 
 it('a load at another crank angle is no residual of the curve', () => {

@@ -1,4 +1,4 @@
-// How two rides are looked at: windows, axis, channels, cursor, and the address that holds them.
+// How two rides are displayed: windows, axis, channels, cursor, and the address that holds them.
 import { NewestAnswer } from '$shared/api/newest_answer.svelte'
 import { PairOfRides } from '$shared/api/pair_of_rides'
 import type { Server } from '$shared/api/server'
@@ -25,10 +25,10 @@ export interface Side {
   to_s: number | null
 }
 
-const wayAxis: TraceAxis = { kind: 'distance', at: (x) => x, moment: (x) => x }
+const distanceAxis: TraceAxis = { kind: 'distance', at: (x) => x, moment: (x) => x }
 
-export class CompareLook implements Cursor {
-  readonly told = new NewestAnswer<RideComparison>()
+export class CompareDisplay implements Cursor {
+  readonly comparison = new NewestAnswer<RideComparison>()
   readonly crank = new NewestAnswer<ComparedCrank>()
   a = $state.raw<Side>({ id: null, from_s: null, to_s: null })
   b = $state.raw<Side>({ id: null, from_s: null, to_s: null })
@@ -37,14 +37,14 @@ export class CompareLook implements Cursor {
   view = $state.raw<RideView | null>(null)
   /** Of either, on the axis. */
   gaps = $state.raw<Span[]>([])
-  /** The place that is looked at: seconds or metres since the start. */
+  /** The place under the cursor: seconds or metres since the start. */
   t_s = $state<number | null>(null)
-  private readonly asks: PairOfRides
-  private wanted: string[]
+  private readonly server: PairOfRides
+  private requested: string[]
   private span: { from_s: number; to_s: number } | null
 
   constructor({ http }: Server, query: URLSearchParams) {
-    this.asks = new PairOfRides(http)
+    this.server = new PairOfRides(http)
     const number = (name: string) => {
       const text = query.get(name)
       return text !== null && Number.isFinite(Number(text)) ? Number(text) : null
@@ -57,32 +57,32 @@ export class CompareLook implements Cursor {
     this.a = side('a')
     this.b = side('b')
     this.by = KINDS.find((kind) => kind === query.get('by')) ?? 'time'
-    this.wanted = query.get('show')?.split(',') ?? []
+    this.requested = query.get('show')?.split(',') ?? []
     const [low, high] = [number('from_x'), number('to_x')]
     this.span = low !== null && high !== null && high > low ? { from_s: low, to_s: high } : null
     this.t_s = number('x')
   }
 
-  /** What is asked for; null until both rides are chosen. */
+  /** The requested pair; null until both rides are chosen. */
   get pair(): ComparedPair | null {
     const { a, b } = this
     if (a.id === null || b.id === null) return null
     const ends = { a_from_s: a.from_s, a_to_s: a.to_s, b_from_s: b.from_s, b_to_s: b.to_s }
-    const known = Object.entries(ends).filter(([, value]) => value !== null)
-    return { a: a.id, b: b.id, ...Object.fromEntries(known) }
+    const given = Object.entries(ends).filter(([, value]) => value !== null)
+    return { a: a.id, b: b.id, ...Object.fromEntries(given) }
   }
 
   get channels(): ComparedChannel[] {
-    return inOrder(this.told.answer?.channels ?? [])
+    return inOrder(this.comparison.value?.channels ?? [])
   }
 
   get shown(): ComparedChannel[] {
     return this.channels.filter(({ name }) => this.names.includes(name))
   }
 
-  /** Whether an axis can be told of both. */
+  /** Whether both rides have an axis. */
   offers(by: By): boolean {
-    const { answer } = this.told
+    const answer = this.comparison.value
     return by !== 'distance' || !!(answer?.a.length_m && answer.b.length_m)
   }
 
@@ -91,16 +91,16 @@ export class CompareLook implements Cursor {
     this.view?.stop()
     this.view = null
     if (!pair) return
-    await this.told.ask((signal) => this.asks.figures(pair, signal))
-    const { answer } = this.told
+    await this.comparison.request((signal) => this.server.figures(pair, signal))
+    const answer = this.comparison.value
     if (!answer) return
-    const known = answer.channels.map(({ name }) => name)
-    const wanted = this.wanted.filter((name) => known.includes(name))
-    this.names = wanted.length > 0 ? wanted : usualOf(answer.channels)
+    const present = answer.channels.map(({ name }) => name)
+    const names = this.requested.filter((name) => present.includes(name))
+    this.names = names.length > 0 ? names : usualOf(answer.channels)
     this.lay(this.offers(this.by) ? this.by : 'time', true)
   }
 
-  /** Chooses a side anew; what was looked at of the old ones is over. */
+  /** Chooses a side; the display of the old pair is dropped. */
   choose(name: SideName, side: Side): void {
     this[name] = side
     this.forget()
@@ -118,30 +118,30 @@ export class CompareLook implements Cursor {
     this.by = by
     this.view?.stop()
     this.view = null
-    const [pair, answer] = [this.pair, this.told.answer]
+    const [pair, answer] = [this.pair, this.comparison.value]
     if (!pair || !answer) return
     if (by === 'crank') {
-      void this.crank.ask((signal) => this.asks.crank(pair, signal))
+      void this.crank.request((signal) => this.server.crank(pair, signal))
       return
     }
     if (this.names.length === 0) return
     const length = by === 'time' ? 'length_s' : 'length_m'
     const lengths = [answer.a[length], answer.b[length]]
-    const ask = async (
+    const fetchSeries = async (
       channels: string[],
       { px, from_s, to_s }: { px: number; from_s?: number; to_s?: number },
       signal: AbortSignal,
     ) => {
       const part = { from_x: from_s ?? 0, to_x: to_s ?? null }
       const query = { ...pair, by, channels: channels.join(','), px, ...part }
-      const told = await this.asks.series(query, signal)
-      const gaps = [...told.a_gaps, ...told.b_gaps]
+      const series = await this.server.series(query, signal)
+      const gaps = [...series.a_gaps, ...series.b_gaps]
       this.gaps = gaps.map(({ from_x, to_x }) => ({ from_s: from_x, to_s: to_x }))
-      return seriesOf(told)
+      return seriesOf(series)
     }
     const end = Math.max(...lengths.map((one) => one ?? 0))
-    const axis = by === 'time' ? timeAxis : wayAxis
-    this.view = new RideView(ask, this.names, end, this.span, axis)
+    const axis = by === 'time' ? timeAxis : distanceAxis
+    this.view = new RideView(fetchSeries, this.names, end, this.span, axis)
   }
 
   /** Shows or hides a channel; the last one stays. */
@@ -150,7 +150,7 @@ export class CompareLook implements Cursor {
     const names = on ? this.names.filter((one) => one !== name) : [...this.names, name]
     if (names.length === 0) return
     this.names = names
-    this.wanted = names
+    this.requested = names
     this.view?.choose(names, this.view.px)
   }
 
@@ -174,28 +174,28 @@ export class CompareLook implements Cursor {
 
   /** What a link holds, so that it shows what its sender saw. */
   get query(): string {
-    const told: string[] = []
+    const parts: string[] = []
     for (const name of ['a', 'b'] as const) {
       const { id, from_s, to_s } = this[name]
-      if (id !== null) told.push(`${name}=${id}`)
-      if (from_s !== null) told.push(`${name}_from_s=${from_s}`)
-      if (to_s !== null) told.push(`${name}_to_s=${to_s}`)
+      if (id !== null) parts.push(`${name}=${id}`)
+      if (from_s !== null) parts.push(`${name}_from_s=${from_s}`)
+      if (to_s !== null) parts.push(`${name}_to_s=${to_s}`)
     }
     const { by, view, names, t_s } = this
-    if (by !== 'time') told.push(`by=${by}`)
+    if (by !== 'time') parts.push(`by=${by}`)
     if (names.length > 0 && names.join() !== usualOf(this.channels).join()) {
-      told.push(`show=${names.map(encodeURIComponent).join()}`)
+      parts.push(`show=${names.map(encodeURIComponent).join()}`)
     }
-    if (view && !view.whole) {
+    if (view && !view.is_complete) {
       const { from_s, to_s } = view.window
-      told.push(`from_x=${from_s.toFixed(2)}`, `to_x=${to_s.toFixed(2)}`)
+      parts.push(`from_x=${from_s.toFixed(2)}`, `to_x=${to_s.toFixed(2)}`)
     }
-    if (view && t_s !== null) told.push(`x=${t_s.toFixed(2)}`)
-    return told.length > 0 ? `?${told.join('&')}` : ''
+    if (view && t_s !== null) parts.push(`x=${t_s.toFixed(2)}`)
+    return parts.length > 0 ? `?${parts.join('&')}` : ''
   }
 
   stop(): void {
-    this.told.stop()
+    this.comparison.stop()
     this.crank.stop()
     this.view?.stop()
   }

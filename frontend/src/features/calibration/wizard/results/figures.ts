@@ -1,11 +1,11 @@
-// The figures of a calibration beside what is allowed, as bars; all from the server's own.
+// The figures of a calibration against what is allowed, as bars; all from the server's own.
 import type { Figure } from '../words/words'
 import type { Job } from '../job/types'
 
-export type Pieces = NonNullable<NonNullable<Job['worked']>['piecewise']>
+export type Piecewise = NonNullable<NonNullable<Job['worked']>['piecewise']>
 
 /** A reading with the correction by pieces; beyond the outermost the last one holds. */
-export function correctedNm({ reading_nm, correction_nm }: Pieces, nm: number): number {
+export function correctedNm({ reading_nm, correction_nm }: Piecewise, nm: number): number {
   const after = reading_nm.findIndex((one) => one >= nm)
   if (after <= 0) return nm + (correction_nm.at(after) ?? 0)
   const [low = nm, high = nm] = reading_nm.slice(after - 1)
@@ -65,9 +65,9 @@ export function barsOf(job: Job): Bar[] {
 
 /** Standard uncertainties at the full scale, the largest first. */
 export function sharesOf(job: Job): { figure: Figure; standard_nm: number }[] {
-  const found = (job.worked?.budget?.contributions ?? []).map((one) => ({
+  const contributions = (job.worked?.budget?.contributions ?? []).map((one) => ({
     figure: one.cause as Figure,
     standard_nm: one.standard_nm.at(-1) ?? 0,
   }))
-  return found.sort((one, other) => other.standard_nm - one.standard_nm)
+  return contributions.sort((one, other) => other.standard_nm - one.standard_nm)
 }

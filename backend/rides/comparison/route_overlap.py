@@ -33,7 +33,7 @@ class Positions:
 
 
 @described
-class SameWay:
+class RouteOverlap:
     """Shares, 0 to 1, of tracks walked in steps of 10 m."""
 
     near_m: float
@@ -54,7 +54,7 @@ class Walked:
     at_m: Values
 
 
-def same_way(a: Positions, b: Positions) -> SameWay | None:
+def route_overlap(a: Positions, b: Positions) -> RouteOverlap | None:
     """None unless both have two positions that follow each other."""
     latitudes_deg = np.concatenate([side.latitude_deg for side in (a, b)])
     if not np.isfinite(latitudes_deg).any():
@@ -71,7 +71,7 @@ def same_way(a: Positions, b: Positions) -> SameWay | None:
     in_step = None
     if a.at_m is not None and b.at_m is not None:
         in_step = share_in_step(one, other)
-    return SameWay(
+    return RouteOverlap(
         NEAR_M,
         share_near(one.points_m, other.points_m),
         share_near(other.points_m, one.points_m),

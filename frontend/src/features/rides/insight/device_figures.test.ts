@@ -1,7 +1,7 @@
 // @vitest-environment happy-dom
 import { expect, test } from 'vitest'
 import { clock, type Locale } from '$shared/i18n/locale.svelte'
-import { nameOf, valueOf } from './stated_lines'
+import { nameOf, valueOf } from './device_figures'
 import en from '$messages/en/insight.json'
 import type { Key } from './words'
 
@@ -17,7 +17,7 @@ test('what the device stated has a name in words and a unit of the pages', () =>
     { name: 'avg_vam', value: 0.25, unit: 'm/s' },
     { name: 'total_distance', value: 78940, unit: 'm' },
     { name: 'total_timer_time', value: 3661, unit: 's' },
-  ].map((stated) => `${nameOf(stated, say)}: ${valueOf(stated, locale)}`)
+  ].map((figure) => `${nameOf(figure, say)}: ${valueOf(figure, locale)}`)
 
   expect(shown).toEqual([
     'Battery used: 34.50 %',
@@ -29,9 +29,9 @@ test('what the device stated has a name in words and a unit of the pages', () =>
   ])
 })
 
-test('what nobody knows keeps its name and has no unit', () => {
-  const stated = { name: 'unknown_177', value: 400, unit: '' }
+test('an unknown figure keeps its name and has no unit', () => {
+  const figure = { name: 'unknown_177', value: 400, unit: '' }
 
-  expect(nameOf(stated, say)).toBe('unknown_177')
-  expect(valueOf(stated, locale)).toBe('400')
+  expect(nameOf(figure, say)).toBe('unknown_177')
+  expect(valueOf(figure, locale)).toBe('400')
 })

@@ -29,10 +29,10 @@ export const FIRST: SetupRequest = {
     first. */
 export function setupOf(job: Job): SetupRequest {
   const own = job.setup ?? null
-  return asked(own) ?? kept() ?? asked(job.suggested_setup) ?? structuredClone(FIRST)
+  return requestOf(own) ?? stored() ?? requestOf(job.suggested_setup) ?? structuredClone(FIRST)
 }
 
-export function keepSetup(setup: SetupRequest): void {
+export function storeSetup(setup: SetupRequest): void {
   write(KEY, setup)
 }
 
@@ -43,15 +43,15 @@ export interface Typed {
   plan: string
 }
 
-/** Kept until it is the job's, or the job is closed. */
-export function keepTyped(job: Job, setup: SetupRequest, reason: string): void {
+/** Stored until the job has it, or the job is closed. */
+export function storeTyped(job: Job, setup: SetupRequest, reason: string): void {
   const same = JSON.stringify(setup) === JSON.stringify(setupOf(job))
   const over = job.closed_at !== null || (same && reason === '')
   const typed: Typed = { setup, reason, plan: planOf(job) }
   write(typedKey(job), over ? null : typed)
 }
 
-/** Null for none, and for a plan that somebody has made another meanwhile. */
+/** Null for none, and for a plan that was changed elsewhere meanwhile. */
 export function typedOf(job: Job): Typed | null {
   const typed = read<Typed>(typedKey(job))
   return typed?.plan === planOf(job) && typed.setup ? (typed as Typed) : null
@@ -60,9 +60,9 @@ export function typedOf(job: Job): Typed | null {
 const typedKey = (job: Job) => `spindle.calibration.typed.${job.unit_key}.${job.id}`
 const planOf = (job: Job) => JSON.stringify(job.setup ?? null)
 
-function kept(): SetupRequest | null {
-  const found = read<SetupRequest>(KEY)
-  return found && { ...structuredClone(FIRST), ...found }
+function stored(): SetupRequest | null {
+  const stored_setup = read<SetupRequest>(KEY)
+  return stored_setup && { ...structuredClone(FIRST), ...stored_setup }
 }
 
 /** Null for nothing, and for what cannot be read. */
@@ -74,7 +74,7 @@ function read<T>(key: string): Partial<T> | null {
   }
 }
 
-/** Null forgets it. Where nothing can be kept it lasts as long as the page. */
+/** Null forgets it. Where nothing can be stored it lasts as long as the page. */
 function write(key: string, value: object | null): void {
   try {
     if (value) localStorage.setItem(key, JSON.stringify(value))
@@ -84,11 +84,11 @@ function write(key: string, value: object | null): void {
   }
 }
 
-/** A setup as it is told, asked for again. */
-function asked(told: Job['setup']): SetupRequest | null {
-  if (!told) return null
-  const { gravity, gain_nm_per_count, ...rest } = told
-  void gain_nm_per_count // the unit's to tell
+/** A setup of the API as the request for it. */
+function requestOf(setup: Job['setup']): SetupRequest | null {
+  if (!setup) return null
+  const { gravity, gain_nm_per_count, ...rest } = setup
+  void gain_nm_per_count // set by the unit
   const { latitude_deg, height_m, gravity_ms2, standard_ms2 } = gravity
   const place = latitude_deg != null && height_m != null
   return {
