@@ -13,8 +13,9 @@ from backend.calibration.prechecks import Check, Refusal
 from backend.calibration.setup import MassClass, Setup, Side
 from backend.calibration.verification import AmongModel, Change, Past
 from backend.calibration.worked import Worked
+from backend.core.api_models import RequestBody
 from backend.core.author import AuthorProof
-from backend.core.described import RequestBody, described
+from backend.core.described import described
 from backend.core.parameter_value import ParameterValue
 
 Record = Mapping[str, ParameterValue | None]

@@ -1,12 +1,10 @@
-"""Types of the API: what it answers with as it is, and what comes with a request."""
+"""Types that the API answers with as they are: each is written down once."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
 from typing import Any, TypeVar, dataclass_transform
-
-from pydantic import BaseModel, ConfigDict
 
 Described = TypeVar("Described")
 Made = TypeVar("Made")
@@ -33,20 +31,3 @@ def from_members(kind: Callable[..., Made], body: Mapping[str, Any]) -> Made:
     """
     names = {field.name for field in fields(kind)}  # type: ignore[arg-type]
     return kind(**{name: value for name, value in body.items() if name in names})
-
-
-class RequestBody(BaseModel):
-    """A request body. Unknown names are refused: a misspelt field must not look accepted.
-
-    NaN and infinities are refused here, before any service sees them.
-    """
-
-    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
-
-
-class Answer(BaseModel):
-    """Built from a service's dataclass by attribute; every field is sent, missing is null."""
-
-    model_config = ConfigDict(
-        from_attributes=True, json_schema_serialization_defaults_required=True
-    )

@@ -7,7 +7,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from backend.core.described import Answer, RequestBody
+from backend.core.api_models import Answer, RequestBody
 from backend.formats.questions import TableAnswer, TableColumn
 from backend.imports.records import AnsweredTable
 from backend.store.uploads import UploadParts

@@ -6,7 +6,8 @@ from datetime import datetime
 
 from pydantic import AwareDatetime, Field, SecretStr
 
-from backend.core.described import RequestBody, described
+from backend.core.api_models import RequestBody
+from backend.core.described import described
 from backend.core.person import Permission, Person, RoleName
 
 NAME_MAX = 64

@@ -7,7 +7,7 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from backend.core.described import Answer, RequestBody
+from backend.core.api_models import Answer, RequestBody
 from backend.core.device_metadata import DeviceSession, Instrument, Lap, Pause
 from backend.core.filled import Filled
 from backend.core.intake import Intake

@@ -8,7 +8,8 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from backend.core.described import Answer, RequestBody, described
+from backend.core.api_models import Answer, RequestBody
+from backend.core.described import described
 from backend.errors import Conflict, NoAnswer
 from backend.law.presets import live_scenarios
 from backend.units.inspection import Inspection

@@ -8,7 +8,8 @@ from typing import Literal, cast
 
 from pydantic import Field
 
-from backend.core.described import RequestBody, described
+from backend.core.api_models import RequestBody
+from backend.core.described import described
 from backend.core.moments import utc
 from backend.device.capability import Capability
 from backend.device.ports import DeviceKind, Port

@@ -1,8 +1,8 @@
 """Goal: the tree stays pleasant to walk through. Method: measure every file git knows.
 
 Limits come from the house style: a budget of lines for each room, files of at most 500 lines,
-functions of at most 70, lines of at most 100 characters, no TODO, and a sentence of purpose in every
-package.
+functions of at most 70, lines of at most 100 characters, no TODO, and a sentence of purpose in
+every package.
 """
 
 import ast

@@ -11,7 +11,8 @@ from backend.calibration.bike.balance import Balance
 from backend.calibration.bike.coast_down import Resistance
 from backend.calibration.bike.wheel import Circumference, CutOff, Pulses
 from backend.calibration.types import GravityAt, GravityInput
-from backend.core.described import RequestBody, described
+from backend.core.api_models import RequestBody
+from backend.core.described import described
 
 RideNumber = Annotated[int, Field(ge=1, le=2**63 - 1)]
 Second = Annotated[float | None, Field(ge=0, le=1e7)]

@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from backend.core.described import Answer
+from backend.core.api_models import Answer
 from backend.law.comparison import CellChange
 from backend.rides.comparison.figures import FigureValue
 from backend.rides.comparison.route_overlap import RouteOverlap

@@ -7,7 +7,7 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from backend.core.described import Answer
+from backend.core.api_models import Answer
 from backend.rides.diagnosis.zero_trend import Share
 
 NoZero = Literal[

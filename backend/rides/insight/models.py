@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from backend.core.described import Answer
+from backend.core.api_models import Answer
 from backend.rides.diagnosis.finding import DiagnosisCheck, Severity
 from backend.rides.insight.distance import Climb
 from backend.rides.insight.effort import Distribution, LapFigures

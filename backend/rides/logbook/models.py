@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from backend.core.described import Answer, RequestBody
+from backend.core.api_models import Answer, RequestBody
 
 RideIds = Annotated[
     list[Annotated[int, Field(ge=1, le=2**63 - 1)]], Field(min_length=1, max_length=500)

@@ -7,7 +7,7 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from backend.core.described import Answer, RequestBody
+from backend.core.api_models import Answer, RequestBody
 from backend.core.parameter_value import Parameters
 from backend.law.rider_and_bike import RiderAndBike
 from backend.rides.models import Series

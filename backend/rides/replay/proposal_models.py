@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from backend.core.described import Answer, RequestBody
+from backend.core.api_models import Answer, RequestBody
 from backend.core.parameter_value import Parameters
 from backend.rides.replay.propose import ProposalFigure
 from backend.tuning.library.models import LibraryEntry

@@ -6,7 +6,7 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from backend.core.described import Answer, RequestBody
+from backend.core.api_models import Answer, RequestBody
 from backend.core.parameter_value import ParameterValue
 from backend.law.comparison import TableComparison
 from backend.law.feel import Feel

@@ -7,7 +7,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from backend.core.described import Answer, RequestBody
+from backend.core.api_models import Answer, RequestBody
 from backend.core.parameter_value import TOKEN, TOKEN_PATTERN, Parameters, ParameterValue
 from backend.device.configuration import Free
 

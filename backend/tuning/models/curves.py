@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from backend.core.described import Answer, RequestBody
+from backend.core.api_models import Answer, RequestBody
 from backend.core.parameter_value import Parameters
 
 Speed = Annotated[float, Field(ge=0.0, le=100.0)]

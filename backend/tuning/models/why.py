@@ -6,7 +6,7 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from backend.core.described import Answer, RequestBody
+from backend.core.api_models import Answer, RequestBody
 from backend.core.fuzzy_table import Label
 from backend.law.why import FiredRule, WhyStep
 from backend.tuning.models.law import AssistModes, FuzzyTable, Law, Table, UnitLimits
