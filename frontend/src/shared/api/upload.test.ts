@@ -2,7 +2,7 @@
 /* Goal: a file arrives complete although the network breaks. The server here counts bytes and fails
    on request; by tus 1.0 only the server knows after a failure how far it got. */
 import type { HttpRequest, HttpStack } from 'tus-js-client'
-import { afterEach, expect, it } from 'vitest'
+import { afterEach, expect, it, vi } from 'vitest'
 import { Refusal } from './client'
 import { Stopped, uploadFile, type UploadSteps } from './upload'
 
@@ -83,7 +83,10 @@ class TusServer implements HttpStack {
 const bytes = Uint8Array.from({ length: 3_000_000 }, (_, i) => i % 251)
 const file = new File([bytes], 'ride 骑行.fit')
 
-afterEach(() => localStorage.clear())
+afterEach(() => {
+  vi.unstubAllGlobals()
+  localStorage.clear()
+})
 
 it('goes on where it stood when the page was loaded anew', async () => {
   const server = new TusServer([])
@@ -144,4 +147,14 @@ it('is not tried again when the server says no', async () => {
   const server = new TusServer([413])
 
   await expect(uploadFile(file, () => undefined, server.steps)).rejects.toBeInstanceOf(Refusal)
+})
+
+it('ends with the reason where the browser does not show what it stored', async () => {
+  const { steps } = new TusServer([])
+  const key = () => {
+    throw new DOMException('storage is blocked', 'SecurityError')
+  }
+  vi.stubGlobal('localStorage', { length: 1, key })
+
+  await expect(uploadFile(file, () => undefined, steps)).rejects.toThrow('blocked')
 })

@@ -1,6 +1,12 @@
 // One file to the server by tus 1.0: resumes where the server has it, then waits for the verdict.
 // tus-js-client: the protocol's own client, MIT; it comes with the first file.
-import type { DetailedError, HttpRequest, HttpStack, Upload as Sending } from 'tus-js-client'
+import type {
+  DetailedError,
+  HttpRequest,
+  HttpResponse,
+  HttpStack,
+  Upload as Sending,
+} from 'tus-js-client'
 import { Refusal, refusal } from './client'
 import type { Upload, UploadList } from './types'
 
@@ -51,7 +57,7 @@ export async function uploadFile(
 
 // What the same bytes became before, with no word of that being an upload of its own.
 async function existingRides(hash: string, steps: UploadSteps): Promise<Upload | null> {
-  const response = await checkedFetch(steps, `api/v1/uploads?sha256=${hash}`, {})
+  const response = await checkedFetch(steps, `api/v1/uploads?sha256=${hash}`)
   const { items } = (await response.json()) as UploadList
   const first = items.find((upload) => upload.ride_ids.length > 0 && !upload.parts)
   if (!first) return null
@@ -68,13 +74,15 @@ async function send(
 ): Promise<Sending> {
   const { Upload } = await import('tus-js-client')
   let stopped: unknown
-  const passed = (request: HttpRequest) =>
-    request.getMethod() === 'PATCH'
-      ? gate().catch((reason: unknown) => {
-          stopped = reason
-          throw reason
-        })
-      : Promise.resolve()
+  const beforeRequest = async (request: HttpRequest) => {
+    if (request.getMethod() !== 'PATCH') return
+    try {
+      await gate()
+    } catch (reason) {
+      stopped = reason
+      throw reason
+    }
+  }
   return new Promise((resolve, reject) => {
     const sending = new Upload(file, {
       endpoint: new URL('api/v1/uploads', document.baseURI).href,
@@ -83,30 +91,29 @@ async function send(
       metadata: { filename: file.name, ...(hash && { sha256: hash }) },
       fingerprint: async () => hash ?? `${file.name} ${file.size} ${file.lastModified}`,
       ...(steps.http && { httpStack: steps.http }),
-      onBeforeRequest: passed,
+      onBeforeRequest: beforeRequest,
       onChunkComplete: (_, accepted, total) => progress(accepted / total),
-      onShouldRetry: (error) => !stopped && mayResume(statusOf(error)),
+      onShouldRetry: (error) => !stopped && mayResume(responseOf(error)?.getStatus() ?? 0),
       onSuccess: () => resolve(sending),
       onError: (error) => {
         if (stopped) reject(stopped)
-        else if (statusOf(error) === 422 && sending.url) resolve(sending)
+        else if (responseOf(error)?.getStatus() === 422 && sending.url) resolve(sending)
         else reject(refused(error))
       },
     })
-    void sending.findPreviousUploads().then(([before]) => {
+    sending.findPreviousUploads().then(([before]) => {
       if (before) sending.resumeFromPreviousUpload(before)
       sending.start()
-    })
+    }, reject)
   })
 }
 
-function statusOf(error: Error | DetailedError): number {
-  const response = 'originalResponse' in error ? error.originalResponse : null
-  return response?.getStatus() ?? 0
+function responseOf(error: Error | DetailedError): HttpResponse | null {
+  return 'originalResponse' in error ? error.originalResponse : null
 }
 
 function refused(error: Error | DetailedError): Refusal {
-  const response = 'originalResponse' in error ? error.originalResponse : null
+  const response = responseOf(error)
   if (!response) return new Refusal(0, 'unreachable', error.message)
   return refusal(response.getStatus(), parsed(response.getBody()))
 }
@@ -121,21 +128,17 @@ function parsed(text: string): unknown {
 
 async function verdict(address: string, steps: UploadSteps): Promise<Upload> {
   for (let poll = 0; poll < VERDICT_POLLS_MAX; poll++) {
-    const upload = (await (await checkedFetch(steps, address, {})).json()) as Upload
+    const upload = (await (await checkedFetch(steps, address)).json()) as Upload
     if (upload.state !== 'receiving' && upload.state !== 'queued') return upload
     await steps.wait(Math.min(1000, 100 * (poll + 1)))
   }
   throw new Refusal(0, 'unreachable', 'The server is still reading the file.')
 }
 
-async function checkedFetch(
-  steps: UploadSteps,
-  path: string,
-  init: RequestInit,
-): Promise<Response> {
+async function checkedFetch(steps: UploadSteps, path: string): Promise<Response> {
   let response: Response
   try {
-    response = await steps.fetch(path, init)
+    response = await steps.fetch(path)
   } catch (error) {
     throw new Refusal(0, 'unreachable', String(error))
   }
@@ -143,8 +146,7 @@ async function checkedFetch(
   throw refusal(response.status, await response.json().catch(() => null))
 }
 
-// Only pages of this machine or over TLS may hash; a large file is identified by name, size and
-// time.
+// Only pages of this machine or over TLS may hash; a large file is known by name, size and time.
 async function sha256(file: File): Promise<string | null> {
   if (!globalThis.crypto?.subtle || file.size > HASHED_BYTES_MAX) return null
   const digest = await crypto.subtle.digest('SHA-256', await file.arrayBuffer())

@@ -91,5 +91,5 @@ export function clock(seconds: number): string {
 
 /** Words with their `{name}` replaced by `values.name`. */
 export function fill(words: string, values: Values = {}): string {
-  return words.replace(/\{(\w+)\}/g, (total, name: string) => String(values[name] ?? total))
+  return words.replace(/\{(\w+)\}/g, (hole, name: string) => String(values[name] ?? hole))
 }
