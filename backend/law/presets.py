@@ -16,11 +16,11 @@ def live_scenarios() -> list[tuple[str, str]]:
     return [(scenario.name, scenario.doc) for scenario in scenarios if scenario.live]
 
 
-SCENARIO = "commute"
-SEED = 7
+SAMPLE_SCENARIO = "commute"
+SAMPLE_SEED = 7
 SAMPLE_S = 1.0
 # The modes of the factory that give more and more, then the fuzzy one.
-MODES = ((0, 1), (60, 2), (110, 3))
+SAMPLE_MODES = ((0, 1), (60, 2), (110, 3))
 """Seconds after the start, and the slot chosen then."""
 FLASH_PAGE_BYTES = 512
 
@@ -30,11 +30,11 @@ def sample_log() -> bytes:
 
     The same bytes each time: the noise has its seed, and time is the unit's own.
     """
-    unit = LockstepUnit(SEED, name="sample", scenario=SCENARIO)
+    unit = LockstepUnit(SAMPLE_SEED, name="sample", scenario=SAMPLE_SCENARIO)
     chosen = 0
     for state in unit.ride_once(SAMPLE_S):
-        while chosen < len(MODES) and state["t_s"] >= MODES[chosen][0]:
-            unit.select_mode(MODES[chosen][1])
+        while chosen < len(SAMPLE_MODES) and state["t_s"] >= SAMPLE_MODES[chosen][0]:
+            unit.select_mode(SAMPLE_MODES[chosen][1])
             chosen += 1
     log = unit.unit.log()
     written = len(log.rstrip(b"\xff"))

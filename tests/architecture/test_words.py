@@ -9,13 +9,13 @@ of docs/glossary.md.
 
 import ast
 import re
-import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
+from tests.fakes.sources import is_generated, relative, tracked
+
 RETIRED = [
     "told",
     "asked",
@@ -43,17 +43,6 @@ def words_of(name: str) -> set[str]:
     return {word.lower() for word in re.findall(r"[A-Z]?[a-z]+|[A-Z]+", name)}
 
 
-def files(*folders: str) -> list[Path]:
-    listed = subprocess.run(
-        ["git", "ls-files", "-co", "--exclude-standard", *folders],
-        cwd=ROOT,
-        capture_output=True,
-        check=True,
-        text=True,
-    ).stdout
-    return [ROOT / name for name in listed.splitlines() if "generated" not in name]
-
-
 def defined_in_python(tree: ast.Module) -> Iterator[str]:
     for node in ast.walk(tree):
         match node:
@@ -76,13 +65,13 @@ def constants(body: list[ast.stmt]) -> Iterator[str]:
 
 
 def names() -> Iterator[tuple[str, Path]]:
-    for path in files(*PYTHON):
-        if path.suffix == ".py":
+    for path in tracked(*PYTHON):
+        if path.suffix == ".py" and not is_generated(path):
             tree = ast.parse(path.read_text(encoding="utf-8"))
             yield from ((name, path) for name in defined_in_python(tree))
             yield path.stem, path
-    for path in files("frontend/src"):
-        if path.suffix in {".ts", ".svelte"}:
+    for path in tracked("frontend/src"):
+        if path.suffix in {".ts", ".svelte"} and not is_generated(path):
             yield from ((name, path) for name in DEFINED.findall(path.read_text(encoding="utf-8")))
             yield path.name.split(".")[0], path
 
@@ -92,6 +81,6 @@ NAMES = [(name, path, words_of(name)) for name, path in names() if name not in S
 
 @pytest.mark.parametrize("word", RETIRED)
 def test_a_retired_word_is_in_no_name(word: str) -> None:
-    users = {f"{path.relative_to(ROOT)}: {name}" for name, path, words in NAMES if word in words}
+    users = {f"{relative(path)}: {name}" for name, path, words in NAMES if word in words}
 
     assert sorted(users) == []
