@@ -47,13 +47,13 @@ OPERATIONS: dict[Permission | Anyone, str] = {
     P.MANAGE_PEOPLE: "list_people add_person change_person list_keys add_key revoke_key",
     P.SEE_BIKES: "list_devices get_device get_snapshot get_service get_dashboard list_faults "
     "moment_of_fault get_simulation list_logs get_log_download list_parameters get_config "
-    "get_last_known list_revisions since_revision why_of_device get_live get_part "
+    "get_last_known list_revisions since_revision why_of_device get_trial_values get_part "
     "list_calibrations get_calibration_job "
     "get_calibration_reading get_calibration_certificate get_calibration_certificate_pdf "
     "sensor_drift prove_limits live",
     P.CHANGE_BIKES: "add_device remove_device clear_faults mark_moment erase_log "
-    "start_log_download patch_config confirm_config rollback_config set_live end_live "
-    "put_part",
+    "start_log_download patch_config confirm_config rollback_config set_trial_values "
+    "end_trial_values put_part",
     P.CALIBRATE: "open_calibration set_up_calibration capture strike_capture "
     "fit_calibration write_calibration verify_calibration restore_calibration "
     "close_calibration roll_out_wheel track_wheel count_wheel_pulses check_cadence "

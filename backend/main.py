@@ -38,7 +38,7 @@ from backend.imports.sample import sample_ride
 from backend.imports.service import QUICK_S, Uploads, UploadSettings
 from backend.imports.unit_logs import Collect
 from backend.people.service import PeopleService
-from backend.rides.comparison.since_change import SinceChange
+from backend.rides.comparison.since_change import RidesSinceChange
 from backend.rides.diagnosis.sensor_drift import SensorDriftService
 from backend.rides.diagnosis.service import RideZeros
 from backend.rides.insight.ledger import EnergyLedger
@@ -65,10 +65,10 @@ from backend.tuning.library.compare import Compare
 from backend.tuning.library.records import LibraryStore
 from backend.tuning.library.service import Library
 from backend.tuning.limit_proof import LimitProofMaker, ProveLimits, ProvenRevisions
-from backend.tuning.live_set import LiveTuning
 from backend.tuning.preview import Preview
 from backend.tuning.records import LimitProofStore, RevisionStore
 from backend.tuning.service import Tuning
+from backend.tuning.trial_values import TrialTuning
 from backend.tuning.why import WhySteady
 from backend.units.dashboard import Dashboards
 from backend.units.inspection import Inspection
@@ -142,7 +142,7 @@ def open_services(
             tuning=tuning,
             calibrations=make_calibrations(settings, devices, store, tuning),
             bike_numbers=make_bike_numbers(store, memory, tuning),
-            live=LiveTuning(devices),
+            trial_values=TrialTuning(devices),
             preview=Preview(),
             library=library,
             compare=Compare(library, tuning),
@@ -152,7 +152,7 @@ def open_services(
             ride_again=RideAgain(store, memory.ride_config),
             proposals=proposals,
             use_of_table=UseOfTable(store, memory.ride_config, devices.unit_at),
-            since_change=SinceChange(store, tuning.revisions),
+            since_change=RidesSinceChange(store, tuning.revisions),
             sensor_drift=SensorDriftService(store, devices.last_known_key, tuning.revisions),
             why_steady=WhySteady(devices.writable),
             why_ride=WhyRide(store, memory.ride_config),

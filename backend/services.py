@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from backend.imports.service import Uploads
     from backend.imports.unit_logs import Collect
     from backend.people.service import PeopleService
-    from backend.rides.comparison.since_change import SinceChange
+    from backend.rides.comparison.since_change import RidesSinceChange
     from backend.rides.diagnosis.sensor_drift import SensorDriftService
     from backend.rides.insight.ledger import EnergyLedger
     from backend.rides.insight.table_use import UseOfTable
@@ -30,9 +30,9 @@ if TYPE_CHECKING:
     from backend.tuning.library.compare import Compare
     from backend.tuning.library.service import Library
     from backend.tuning.limit_proof import ProveLimits
-    from backend.tuning.live_set import LiveTuning
     from backend.tuning.preview import Preview
     from backend.tuning.service import Tuning
+    from backend.tuning.trial_values import TrialTuning
     from backend.tuning.why import WhySteady
     from backend.units.dashboard import Dashboards
     from backend.units.inspection import Inspection
@@ -55,7 +55,7 @@ class Services:
     tuning: Tuning
     calibrations: Calibrations
     bike_numbers: BikeNumbers
-    live: LiveTuning
+    trial_values: TrialTuning
     preview: Preview
     library: Library
     compare: Compare
@@ -65,7 +65,7 @@ class Services:
     ride_again: RideAgain
     proposals: Proposals
     use_of_table: UseOfTable
-    since_change: SinceChange
+    since_change: RidesSinceChange
     sensor_drift: SensorDriftService
     why_steady: WhySteady
     why_ride: WhyRide

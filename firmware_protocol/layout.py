@@ -8,7 +8,8 @@ import struct
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, Self, TypeAlias
 
-Value: TypeAlias = "float | int | str | list[Value] | None"
+Scalar: TypeAlias = int | float | str
+Value: TypeAlias = Scalar | list[Scalar] | list[list[Scalar]] | None
 """A parameter in a configuration: a number, a text, a choice, nested lists, or none."""
 
 Default: TypeAlias = "float | int | str | tuple[Default, ...] | None"

@@ -7,6 +7,7 @@ import math
 import struct
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import cast
 
 import numpy as np
 
@@ -85,7 +86,7 @@ def respelled(row: Parameter, value: Value) -> Value:
     if row.enum is None:
         return value
     if isinstance(value, list | tuple):
-        return [respelled(row, element) for element in value]
+        return cast(Value, [respelled(row, element) for element in value])
     number = choice_number(row, value)
     return value if number is None else word_of(ENUM_BY_NAME[row.enum](number).name)
 

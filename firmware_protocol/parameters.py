@@ -8,6 +8,7 @@ itself.
 
 import struct
 from collections.abc import Iterator, Mapping
+from typing import Any, cast
 
 import numpy as np
 
@@ -172,13 +173,13 @@ def _packed(row: Parameter, element: Value) -> bytes:
 
 
 def _unpack_parameter(row: Parameter, image: bytes) -> Value:
-    elements = [
+    elements: list[Any] = [
         _unpacked(row, image[at : at + row.length])
         for at in range(row.image_offset, row.image_offset + row.size, row.length)
     ]
     for size in reversed(row.shape):
         elements = [list(elements[at : at + size]) for at in range(0, len(elements), size)]
-    return elements[0]
+    return cast(Value, elements[0])
 
 
 def _unpacked(row: Parameter, element: bytes) -> Value:
@@ -206,5 +207,5 @@ def _items(row: Parameter, data: bytes, length_max: int) -> Iterator[bytes]:
         yield ITEM_HEAD.pack(row.id, first, len(values) // row.length) + values
 
 
-def _listed(value: Default) -> Value:
+def _listed(value: Default) -> Any:
     return [_listed(item) for item in value] if isinstance(value, tuple) else value

@@ -23,8 +23,9 @@ from backend.device.readings import Fault, Snapshot
 from backend.errors import NoAnswer, RequestRefused
 from backend.rides.models import Ride, RideList, Series
 from backend.server.health import Health
-from backend.tuning.models.config import Config, ConfigChange, Parameter, ParameterList
+from backend.tuning.models.config import ParameterList
 from backend.tuning.models.law import FuzzyTable, Table, UnitLimits
+from backend.tuning.types import Config, ConfigChange, Parameter
 from backend.units.dashboard import Dashboard
 from backend.units.simulation import Simulation
 from backend.units.types import Device, FaultList

@@ -5,13 +5,14 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Literal, TypeAlias
 
 from backend.core.described import described
+from backend.core.parameter_value import ParameterValue
 from backend.errors import FieldError
 
-Value: TypeAlias = "float | int | str | list[Value] | None"
-Config: TypeAlias = Mapping[str, Value]
+Value: TypeAlias = ParameterValue
+Values: TypeAlias = Mapping[str, Value]
 
 NO_TRIAL = (
     "No change is on trial in this unit: it was kept, given up or its time ran out. Read the "
@@ -48,9 +49,11 @@ class TrialStatus:
 
 
 @dataclass(frozen=True)
-class LiveState:
-    """What is tried now. parameters: those that differ from the configuration, by name, with the
-    value in force. left_s: until the unit ends it, 0 when nothing is tried."""
+class ValuesOnTrial:
+    """Values on trial in a unit's memory alone: those that differ from the configuration, by name.
+
+    left_s: until the unit ends it, 0 where nothing is on trial.
+    """
 
     parameters: dict[str, Value]
     left_s: float
@@ -58,12 +61,11 @@ class LiveState:
 
 @dataclass(frozen=True)
 class ParameterRow:
-    """What a parameter is. choices: of an enumeration, None for numbers and texts.
+    """What a parameter is. min, max: the unit's own bounds. access: who may change it.
 
-    access: who may change it: rider, dealer or factory. length: bytes a text may have, None for
-    numbers. may_be_none: whether the unit takes it without a value. of_the_unit: measured or set
-    for this one unit and its bike, as its sensor's calibration and its wheel: it is no part of a
-    set-up for another one.
+    choices: of an enumeration, None for numbers and texts. length: bytes that a text may have, None
+    for numbers. may_be_none: whether the unit takes it without a value. of_the_unit: measured or
+    set for this one unit and its bike, as its sensor's calibration and its wheel.
     """
 
     id: int
@@ -75,7 +77,7 @@ class ParameterRow:
     min: float | None
     max: float | None
     default: Value
-    access: str
+    access: Literal["rider", "dealer", "factory"]
     choices: tuple[str, ...] | None
     length: int | None
     description: str
@@ -102,27 +104,27 @@ class ParameterTable(ABC):
     rows: Sequence[ParameterRow]
     factory: frozenset[str] = frozenset()
 
-    def free_of(self, name: str, config: Config) -> Free | None:
+    def free_of(self, name: str, config: Values) -> Free | None:
         """The band of a parameter in this configuration; None for one without."""
         return None
 
     @abstractmethod
-    def faults_of(self, config: Config) -> list[FieldError]:
+    def faults_of(self, config: Values) -> list[FieldError]:
         """Everything that is wrong with a whole configuration, each element named."""
 
     @abstractmethod
-    def rounded(self, config: Config) -> dict[str, Value]:
+    def rounded(self, config: Values) -> dict[str, Value]:
         """A checked configuration as the unit will hold it."""
 
     @abstractmethod
-    def crc32_of(self, config: Config) -> int:
+    def crc32_of(self, config: Values) -> int:
         """The checksum a unit gives for this whole configuration."""
 
     def group(self, name: str) -> tuple[str, ...]:
         """Names of the parameters of one group, in the order of the rows."""
         return tuple(row.name for row in self.rows if row.group == name)
 
-    def unknown_names(self, changes: Config) -> list[FieldError]:
+    def unknown_names(self, changes: Values) -> list[FieldError]:
         """A fault for each name that is no parameter."""
         names = {row.name for row in self.rows}
         return [

@@ -15,12 +15,12 @@ from typing import Any, ClassVar, NoReturn, Self, TypeVar
 from backend.core.channels import ChannelSpec
 from backend.device.capability import Capability
 from backend.device.configuration import (
-    Config,
     ConfigImage,
-    LiveState,
     ParameterTable,
     TrialStatus,
     Value,
+    Values,
+    ValuesOnTrial,
 )
 from backend.device.conversation import Operation
 from backend.device.driver import Driver
@@ -122,7 +122,7 @@ class Unit(ABC):
         self._lacks(Capability.UNLOCK)
 
     def write_config(
-        self, base: ConfigImage, changes: Config, confirm_s: int = 0, permit: object = None
+        self, base: ConfigImage, changes: Values, confirm_s: int = 0, permit: object = None
     ) -> ConfigImage:
         """Change what is named on top of `base`, all or nothing, and read everything back.
 
@@ -132,7 +132,7 @@ class Unit(ABC):
         """
         self._lacks(Capability.WRITE_CONFIG)
 
-    def outcome_of_write(self, base: ConfigImage, intended: Config) -> ConfigImage:
+    def outcome_of_write(self, base: ConfigImage, intended: Values) -> ConfigImage:
         """What became of a write nobody answered: the configuration if it is what was meant.
 
         Raises NoAnswer with the outcome `unchanged`, ConfigConflict, PeerProtocolError; NoAnswer
@@ -150,7 +150,7 @@ class Unit(ABC):
         """Where the active configuration stands."""
         self._lacks(Capability.UNIT_TRIAL)
 
-    def confirm_config(self, intended: Config) -> ConfigImage:
+    def confirm_config(self, intended: Values) -> ConfigImage:
         """Keep what is on trial once it was read back and compared. Raises Conflict."""
         self._lacks(Capability.UNIT_TRIAL)
 
@@ -168,7 +168,7 @@ class Unit(ABC):
 
     # ------------------------------------------------------------------ values tried live
 
-    def live(self) -> LiveState:
+    def trial_values(self) -> ValuesOnTrial:
         """What is tried in the unit's memory alone."""
         self._lacks(Capability.LIVE_SET)
 
@@ -176,19 +176,19 @@ class Unit(ABC):
         """Every parameter as the law uses it now."""
         self._lacks(Capability.LIVE_SET)
 
-    def set_live(self, changes: Config, ttl_s: int) -> LiveState:
+    def set_trial_values(self, changes: Values, ttl_s: int) -> ValuesOnTrial:
         """Try values for `ttl_s` seconds. Raises LimitViolation, AccessDenied."""
         self._lacks(Capability.LIVE_SET)
 
-    def outcome_of_live(self, before: Config, values: Config) -> LiveState:
+    def outcome_of_trial_values(self, before: Values, values: Values) -> ValuesOnTrial:
         """As `outcome_of_write`, of values that are tried."""
         self._lacks(Capability.LIVE_SET)
 
-    def end_live(self) -> LiveState:
+    def end_trial_values(self) -> ValuesOnTrial:
         """End what is tried; what is tried then."""
         self._lacks(Capability.LIVE_SET)
 
-    def outcome_of_live_end(self) -> LiveState:
+    def outcome_of_trial_values_end(self) -> ValuesOnTrial:
         """As `outcome_of_write`, of the end of what is tried."""
         self._lacks(Capability.LIVE_SET)
 

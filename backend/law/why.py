@@ -213,9 +213,9 @@ def _changes(
 
 
 def _mode_law(config: Mapping[str, Any], mode: int) -> str:
-    """The law of a slot; units before 0.3 told it in upper case. A slot nobody has is off."""
+    """The law of a slot. A slot nobody has is off."""
     laws = config["mode_laws"]
-    return str(laws[mode]).lower() if mode < len(laws) else "off"
+    return str(laws[mode]) if mode < len(laws) else "off"
 
 
 def _finite_or_none(value: float) -> float | None:

@@ -9,18 +9,13 @@ from fastapi.exceptions import RequestValidationError
 from pydantic import ValidationError
 
 from backend.core.parameter_value import TOKEN, TOKEN_PATTERN
-from backend.tuning.live_set import LiveTuning
 from backend.tuning.models.config import (
     CONFIRM_S,
     CONFIRM_S_MAX,
-    Config,
-    ConfigChange,
     ConfigPatch,
-    LastKnown,
-    Live,
-    LiveRequest,
     ParameterList,
     RevisionList,
+    TrialValuesRequest,
 )
 from backend.tuning.models.law import (
     AssistModes,
@@ -32,7 +27,8 @@ from backend.tuning.models.law import (
 )
 from backend.tuning.models.why import Why, WhyRequest
 from backend.tuning.service import Tuning
-from backend.tuning.types import etag
+from backend.tuning.trial_values import TrialTuning
+from backend.tuning.types import Config, ConfigChange, LastKnown, TrialValues, etag
 from backend.tuning.why import WhySteady
 from backend.units.precondition import FOR_ONE_UNIT
 from backend.web.authentication import Author
@@ -45,7 +41,7 @@ router = APIRouter(
     dependencies=FOR_ONE_UNIT,
     responses=refusals(403, 404, 409, 412, 503, 504),
 )
-TheLiveTuning = Annotated[LiveTuning, provided("live")]
+TheTrialTuning = Annotated[TrialTuning, provided("trial_values")]
 TheTuning = Annotated[Tuning, provided("tuning")]
 TheWhySteady = Annotated[WhySteady, provided("why_steady")]
 IfMatch = Annotated[
@@ -179,22 +175,22 @@ def why_of_device(device_id: str, body: WhyRequest, why: TheWhySteady) -> Any:
     return why(*body.parts(), device_id)
 
 
-@router.get("/live", operation_id="get_live", response_model=Live)
-def get_live(device_id: str, live: TheLiveTuning) -> Any:
-    """What is tried in the unit's memory now, and until when."""
-    return live.read(device_id)
+@router.get("/trial-values", operation_id="get_trial_values", response_model=TrialValues)
+def get_trial_values(device_id: str, trial: TheTrialTuning) -> Any:
+    """What is on trial in the unit's memory now, and until when."""
+    return trial.read(device_id)
 
 
-@router.post("/live", operation_id="set_live", response_model=Live)
-def set_live(device_id: str, body: LiveRequest, live: TheLiveTuning) -> Any:
-    """Tries values at once, standing or moving; a restart, a commit or the time ends it."""
-    return live.set(device_id, cast("dict[str, Any]", body.parameters), body.ttl_s)
+@router.post("/trial-values", operation_id="set_trial_values", response_model=TrialValues)
+def set_trial_values(device_id: str, body: TrialValuesRequest, trial: TheTrialTuning) -> Any:
+    """Puts values on trial at once, standing or moving; a restart, a commit or the time ends it."""
+    return trial.set(device_id, cast("dict[str, Any]", body.parameters), body.ttl_s)
 
 
-@router.delete("/live", operation_id="end_live", response_model=Live)
-def end_live(device_id: str, live: TheLiveTuning) -> Any:
-    """Ends what is tried: the law runs on the configuration again."""
-    return live.end(device_id)
+@router.delete("/trial-values", operation_id="end_trial_values", response_model=TrialValues)
+def end_trial_values(device_id: str, trial: TheTrialTuning) -> Any:
+    """Ends what is on trial: the law runs on the configuration again."""
+    return trial.end(device_id)
 
 
 @router.get("/parts/{part}", operation_id="get_part", response_model=AnyPart)

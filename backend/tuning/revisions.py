@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass
 from backend.core.revision import Revision, RevisionLog
 from backend.device.configuration import ConfigImage
 from backend.errors import StoreError
-from backend.tuning.types import Change
+from backend.tuning.types import ParameterChange
 
 LOG = logging.getLogger(__name__)
 
@@ -25,7 +25,7 @@ class Meant:
     """A change as the log is to have it. crc32: of the configuration it makes."""
 
     crc32: int
-    changed: Sequence[Change]
+    changed: Sequence[ParameterChange]
     reason: str
     author: str
     state: str

@@ -22,11 +22,11 @@ from backend.errors import Conflict, FieldError, InvalidRequest, LimitViolation,
 from backend.tuning.parts import PARTS, ConfigPart
 from backend.tuning.revisions import TRIED, VERIFIED, Meant, RevisionBook
 from backend.tuning.types import (
-    Change,
+    Config,
     ConfigChange,
-    ConfigView,
     LastKnown,
-    ParameterView,
+    Parameter,
+    ParameterChange,
     TypedView,
     check_base,
     differences,
@@ -60,19 +60,19 @@ class Tuning:
 
     # ------------------------------------------------------------------ reading
 
-    def parameters(self, device_id: str) -> list[ParameterView]:
+    def parameters(self, device_id: str) -> list[Parameter]:
         """Every parameter with its bounds and its value now. Raises NotFound, NoAnswer."""
         unit = self._devices.writable(device_id)
         return _views(unit.parameters, unit.read_config().parameters)
 
-    def read_config(self, device_id: str, bank: str = ACTIVE) -> ConfigView:
+    def read_config(self, device_id: str, bank: str = ACTIVE) -> Config:
         """A whole configuration of the unit: `active`, `previous` or `default`.
 
         Raises NotFound, also where the unit never had a previous one, and NoAnswer.
         """
         key, unit = self._devices.pinned(device_id)
         config = unit.read_config() if bank == ACTIVE else unit.read_bank(bank)
-        return ConfigView(key, config.generation, config.crc32, config.parameters)
+        return Config(key, config.generation, config.crc32, config.parameters)
 
     def read_part(self, device_id: str, name: str) -> TypedView:
         """A part of the configuration in the shape people edit; name: one of `PARTS`.
@@ -292,7 +292,7 @@ class Tuning:
         key: str,
         base: ConfigImage,
         intended: Mapping[str, Value],
-        changed: Sequence[Change],
+        changed: Sequence[ParameterChange],
         confirm_s: int,
         permit: object,
     ) -> ConfigImage:
@@ -331,12 +331,12 @@ class Tuning:
         return datetime.fromtimestamp(self._now_s() + trial.left_s, UTC)
 
 
-def _views(table: ParameterTable, values: Mapping[str, Value]) -> list[ParameterView]:
+def _views(table: ParameterTable, values: Mapping[str, Value]) -> list[Parameter]:
     """Every parameter that has a value."""
     values_by_name = {row.name: values[row.name] for row in table.rows if row.name in values}
     is_complete = len(values_by_name) == len(table.rows)
     return [
-        ParameterView(
+        Parameter(
             **asdict(row),
             value=values_by_name[row.name],
             free=table.free_of(row.name, values_by_name) if is_complete else None,
@@ -353,7 +353,7 @@ def _part(unit: Unit, name: str) -> ConfigPart:
     return kind.of(unit.parameters)
 
 
-def _check_compared(changed: Sequence[Change], compared: Collection[str]) -> None:
+def _check_compared(changed: Sequence[ParameterChange], compared: Collection[str]) -> None:
     """Raise LimitViolation naming what was to stay as it is."""
     faults = [
         FieldError(
@@ -367,7 +367,7 @@ def _check_compared(changed: Sequence[Change], compared: Collection[str]) -> Non
 
 
 def _check_of_this_unit(
-    table: ParameterTable, changed: Sequence[Change], read_from: str | None
+    table: ParameterTable, changed: Sequence[ParameterChange], read_from: str | None
 ) -> None:
     """Raise LimitViolation naming what stays with a unit, of values that are not this unit's own.
 

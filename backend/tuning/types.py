@@ -4,51 +4,60 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import datetime
-from typing import Any
+from typing import Any, Literal, TypeAlias
 
+from backend.core.described import described
 from backend.core.unit_key import unit_tag
 from backend.device.configuration import ConfigImage, Free, ParameterRow, Value
 from backend.errors import ConfigConflict, OtherUnit
 
+ChangeState: TypeAlias = Literal["committed", "provisional", "needs_restart"]
 
-@dataclass(frozen=True)
-class ConfigView:
+
+@described
+class Config:
     """A unit's whole configuration; parameters by registry name."""
 
     unit_key: str
+    """Of the unit that has it."""
     generation: int
     crc32: int
-    parameters: dict[str, Value]
+    parameters: Mapping[str, Value]
 
 
-@dataclass(frozen=True, kw_only=True)
-class ParameterView(ParameterRow):
-    """A parameter, its value in the unit now, and its band; None: it has none."""
+@described
+class Parameter(ParameterRow):
+    """What a parameter is, and its value in the unit now.
 
-    value: Value
-    free: Free | None
-
-
-@dataclass(frozen=True)
-class LastKnown:
-    """A unit's configuration as it was last read from it, for reading only.
-
-    seen_at: when the unit was last there; None if unknown. recorded_at: when the
-    configuration was read.
+    `min`, `max` and `choices` are the unit's own bounds. Choices are in lower case, but for the
+    labels of rules, NB NS ZO PS PB; they are taken in any case. `may_be_none`: `null` is a value, a
+    correction that is not known. `of_the_unit`: measured or set for this one unit and its bike, as
+    the sensor's calibration and the wheel, so no part of a set-up for another one.
     """
+
+    value: Value = field(kw_only=True)
+    free: Free | None = field(kw_only=True)
+    """Only of parameters that are held near the factory's value."""
+
+
+@described
+class LastKnown:
+    """What a unit was last known to be set to. Nothing can be written on it: it has no ETag."""
 
     unit_key: str
     seen_at: datetime | None
+    """When the unit was last there."""
     recorded_at: datetime
+    """When this configuration was read from it."""
     generation: int | None
     crc32: int | None
-    parameters: tuple[ParameterView, ...]
+    parameters: tuple[Parameter, ...]
 
 
-@dataclass(frozen=True)
-class Change:
+@described
+class ParameterChange:
     """One parameter that became another."""
 
     name: str
@@ -56,32 +65,43 @@ class Change:
     new: Value
 
 
-@dataclass(frozen=True)
-class ConfigChange:
-    """A change the unit took, and the whole configuration as it was read back.
+@described
+class TrialValues:
+    """What is on trial over the configuration, in the unit's memory alone; null where nothing is.
 
-    unit_key: of the unit that took it. state: `committed`; `provisional`: the unit returns to what
-    it had at `expires_at` unless the change is confirmed; `needs_restart`: it holds from the unit's
-    next start on. verified: read back whole and equal field by field, and nothing is left that only
-    a restart can show.
+    parameters: those that differ from the configuration, with the value in force.
     """
 
+    parameters: Mapping[str, Value]
+    remaining_s: float | None
+    expires_at: datetime | None
+
+
+@described
+class ConfigChange:
+    """A change that the unit took, read back and compared field by field."""
+
     unit_key: str
+    """Of the unit that took it."""
     generation: int
     crc32: int
-    state: str
+    state: ChangeState
+    """`provisional`: given up at `expires_at` unless it is confirmed. `needs_restart`: holds from
+    the unit's next start on."""
     verified: bool
-    changed: tuple[Change, ...]
+    """Whether the last comparison that this make of unit allows was made."""
+    changed: tuple[ParameterChange, ...]
     expires_at: datetime | None
-    parameters: dict[str, Value]
+    parameters: Mapping[str, Value]
+    """The whole configuration as it was read back."""
 
     @classmethod
     def of(
         cls,
         unit_key: str,
         config: ConfigImage,
-        state: str = "committed",
-        changed: tuple[Change, ...] = (),
+        state: ChangeState = "committed",
+        changed: tuple[ParameterChange, ...] = (),
         expires_at: datetime | None = None,
     ) -> ConfigChange:
         """A change after which the unit has `config`."""
@@ -150,8 +170,14 @@ def is_match(current: str, if_match: str | None) -> bool:
     return current in ENTITY_TAGS.findall(if_match) or if_match.strip() == current.strip('"')
 
 
-def differences(old: Mapping[str, Value], new: Mapping[str, Value]) -> tuple[Change, ...]:
-    """Parameters whose value differs, in the order of `old`."""
+def differences(old: Mapping[str, Value], new: Mapping[str, Value]) -> tuple[ParameterChange, ...]:
+    """What differs between two sets of parameters by name, in the order of the first.
+
+    None stands for a value where a set has no such parameter.
+    """
+    names = [*old, *(name for name in new if name not in old)]
     return tuple(
-        Change(name, value, new[name]) for name, value in old.items() if value != new[name]
+        ParameterChange(name, old.get(name), new.get(name))
+        for name in names
+        if old.get(name) != new.get(name)
     )

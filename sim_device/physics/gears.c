@@ -47,7 +47,7 @@ static int next_cog(const gears_config *config, const gears_state *state, double
 void gears_step(const gears_config *config, gears_state *state, double chainring_rpm, double dt_s)
 {
     if (config->cog_teeth[0] < TEETH_MIN) return;
-    /* A shorter cassette has been fitted. */
+    /* A shorter cassette is installed. */
     if (config->cog_teeth[state->cog] < TEETH_MIN) state->cog = cogs(config) - 1;
     if (state->left_s <= 0.0) {
         state->wanted = next_cog(config, state, chainring_rpm);

@@ -16,8 +16,8 @@ import pytest
 
 from backend.device.states import LinkState
 from backend.errors import Conflict, NoAnswer
-from backend.tuning.live_set import LiveTuning
 from backend.tuning.service import Tuning
+from backend.tuning.trial_values import TrialTuning
 from backend.units.service import Devices
 from firmware_protocol._generated import (
     CfgBeginRequest,
@@ -197,7 +197,7 @@ def test_the_word_that_ends_a_trial_is_lost_on_the_way_or_its_answer_is(
 @pytest.mark.parametrize("dead_s", DEAD_S)
 @pytest.mark.parametrize("way", ["up", "down"])
 def test_values_tried_over_a_line_that_dies(bench: Bench, way: str, dead_s: float) -> None:
-    live = LiveTuning(bench.devices)
+    live = TrialTuning(bench.devices)
     bench.unit.at = LiveSetRequest
     setattr(bench.unit, f"dead_{way}_s", dead_s)
 

@@ -235,12 +235,14 @@ def test_any_request_of_the_api_is_sent_from_the_shell(
 
     figures = api("POST", "/calibration/evaluate", "--input", readings, "--json")
     again = api("post", "api/v1/calibration/evaluate", f"forward=@{readings}", "load_nm=[0]")
-    tried = api("POST", "/devices/{unit}/live", "parameters.pedal_stop_ms=222", "ttl_s=200")
-    told = api("GET", "/devices/{unit}/live", "--unit", device, "--json")
-    ended = api("DELETE", "/devices/{unit}/live")
+    tried = api("POST", "/devices/{unit}/trial-values", "parameters.pedal_stop_ms=222", "ttl_s=200")
+    told = api("GET", "/devices/{unit}/trial-values", "--unit", device, "--json")
+    ended = api("DELETE", "/devices/{unit}/trial-values")
     second = api("GET", "/devices/{unit}/parts/fuzzy_table", "table=second", "--json")
     listed = api("GET", "/devices")
-    refused = api("POST", "/devices/{unit}/live", "parameters.pedal_stop_ms=99999", "ttl_s=9")
+    refused = api(
+        "POST", "/devices/{unit}/trial-values", "parameters.pedal_stop_ms=99999", "ttl_s=9"
+    )
     saved = api("GET", "/store/backup", "-o", backup)
     gone = api("DELETE", "/library/even", "-H", 'if-match: "x"')
 

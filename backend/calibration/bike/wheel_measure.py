@@ -24,7 +24,7 @@ from backend.rides.rows import Window, columns_from
 from backend.rides.settings_in_force import ConfigOf, all_through
 from backend.rides.traces.trace import row_window
 from backend.store import Store
-from backend.tuning.types import ParameterView
+from backend.tuning.types import Parameter
 
 GAP_S_MAX = 2.5
 """Over a longer gap the bike's motion is unknown; a head unit records one row a second."""
@@ -78,7 +78,7 @@ SPEED, LATITUDE, LONGITUDE = "speed_kmh", "latitude_deg", "longitude_deg"
 ENDS_S = 10.0
 """Of a window in which the bike stands, that the other ride need not cover."""
 
-ParametersOf = Callable[[str], Sequence[ParameterView]]
+ParametersOf = Callable[[str], Sequence[Parameter]]
 
 
 @dataclass(frozen=True)

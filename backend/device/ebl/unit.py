@@ -12,16 +12,16 @@ from backend.core.channels import ChannelSpec
 from backend.core.unit_key import EBL
 from backend.device.capability import Capability
 from backend.device.configuration import (
-    Config,
     ConfigImage,
-    LiveState,
     ParameterTable,
     TrialStatus,
     Value,
+    Values,
+    ValuesOnTrial,
 )
 from backend.device.driver import Driver, LinkOpener, Listener
 from backend.device.ebl.faults import described
-from backend.device.ebl.operations import config_outcome, config_trial, live_set, ride_logs
+from backend.device.ebl.operations import config_outcome, config_trial, ride_logs, trial_values
 from backend.device.ebl.operations.config_transaction import read_bank, read_config, write_config
 from backend.device.ebl.operations.parameters import TABLE
 from backend.device.ebl.operations.readings import (
@@ -112,12 +112,12 @@ class EblUnit(Unit):
         return token_from(token)
 
     def write_config(
-        self, base: ConfigImage, changes: Config, confirm_s: int = 0, permit: object = None
+        self, base: ConfigImage, changes: Values, confirm_s: int = 0, permit: object = None
     ) -> ConfigImage:
         token = cast("Token | None", permit)
         return self._run(write_config(base, changes, self._mtu, confirm_s, token), WRITE_S)
 
-    def outcome_of_write(self, base: ConfigImage, intended: Config) -> ConfigImage:
+    def outcome_of_write(self, base: ConfigImage, intended: Values) -> ConfigImage:
         return self._run(config_outcome.outcome_of_write(base, intended, self._mtu))
 
     def settings_are_lost(self) -> bool:
@@ -126,7 +126,7 @@ class EblUnit(Unit):
     def trial(self) -> TrialStatus:
         return self._run(trial_status())
 
-    def confirm_config(self, intended: Config) -> ConfigImage:
+    def confirm_config(self, intended: Values) -> ConfigImage:
         return self._run(config_trial.confirm_config(intended, self._mtu), WRITE_S)
 
     def outcome_of_confirm(self, tried: ConfigImage) -> ConfigImage:
@@ -140,24 +140,24 @@ class EblUnit(Unit):
 
     # ------------------------------------------------------------------ values tried live
 
-    def live(self) -> LiveState:
-        return self._run(live_set.read_live(self._mtu))
+    def trial_values(self) -> ValuesOnTrial:
+        return self._run(trial_values.read_trial_values(self._mtu))
 
     def values_in_force(self) -> dict[str, Value]:
-        return self._run(live_set.values_in_force(self._mtu))
+        return self._run(trial_values.values_in_force(self._mtu))
 
-    def set_live(self, changes: Config, ttl_s: int) -> LiveState:
-        return self._run(live_set.set_live(changes, ttl_s, self._mtu))
+    def set_trial_values(self, changes: Values, ttl_s: int) -> ValuesOnTrial:
+        return self._run(trial_values.set_trial_values(changes, ttl_s, self._mtu))
 
-    def outcome_of_live(self, before: Config, values: Config) -> LiveState:
-        return self._run(live_set.outcome_of_live(before, values, self._mtu))
+    def outcome_of_trial_values(self, before: Values, values: Values) -> ValuesOnTrial:
+        return self._run(trial_values.outcome_of_trial_values(before, values, self._mtu))
 
-    def end_live(self) -> LiveState:
-        self._run(live_set.end_live())
-        return self.live()
+    def end_trial_values(self) -> ValuesOnTrial:
+        self._run(trial_values.end_trial_values())
+        return self.trial_values()
 
-    def outcome_of_live_end(self) -> LiveState:
-        return self._run(live_set.outcome_of_live_end(self._mtu))
+    def outcome_of_trial_values_end(self) -> ValuesOnTrial:
+        return self._run(trial_values.outcome_of_trial_values_end(self._mtu))
 
     # ------------------------------------------------------------------ faults and wear
 

@@ -100,8 +100,8 @@ class SimulatedAddress:
     def memory_name(self) -> str:
         """The file of a unit that has no flash of its own: another for another market.
 
-        Markets are in upper case there and `none` is not, as version 0.2 wrote them, so that its
-        units keep their settings.
+        Markets are in upper case there and `none` is not, as every version has written them, so
+        that units keep their settings.
         """
         market = (self.market or "").upper()
         made_for = f"-{'none' if market == 'NONE' else market}" if market else ""

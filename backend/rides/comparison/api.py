@@ -8,11 +8,10 @@ from fastapi import APIRouter, Depends, Query, Response
 
 from backend.core.channels import channel_names
 from backend.rides.comparison.models import ComparedCrank, ComparedSeries, RideComparison
-from backend.rides.comparison.since_change import SinceChange
+from backend.rides.comparison.since_change import RidesSinceChange, SinceChange
 from backend.rides.query import Channels
 from backend.rides.questions import Insight
 from backend.rides.rows import Window
-from backend.tuning.models.config import SinceChange as SinceChangeAnswer
 from backend.units.precondition import FOR_ONE_UNIT
 from backend.web.problem import DAMAGED, refusals
 from backend.web.responses import json_response
@@ -79,12 +78,12 @@ def compare_ride_crank(pair: TwoRides, insight: TheInsight) -> Any:
 @of_units.get(
     "/devices/{device_id}/config/revisions/{seq}/since",
     operation_id="since_revision",
-    response_model=SinceChangeAnswer,
+    response_model=SinceChange,
     dependencies=FOR_ONE_UNIT,
     responses=refusals(403, 412),
 )
 def since_revision(
-    device_id: str, seq: int, since_change: Annotated[SinceChange, provided("since_change")]
+    device_id: str, seq: int, since_change: Annotated[RidesSinceChange, provided("since_change")]
 ) -> Any:
     """The unit's rides since this configuration beside those before it."""
     return since_change(device_id, seq)

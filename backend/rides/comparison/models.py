@@ -11,8 +11,8 @@ from backend.law.comparison import CellChange
 from backend.rides.comparison.figures import FigureValue
 from backend.rides.comparison.route_overlap import RouteOverlap
 from backend.rides.insight.models import CrankTorque
-from backend.tuning.models.config import ParameterChange
 from backend.tuning.models.law import FuzzyTable
+from backend.tuning.types import ParameterChange
 
 NoCrank = Literal["no_angle", "no_torque", "slow_rows", "few_turns"]
 

@@ -9,7 +9,7 @@ from backend.core.fuzzy_table import PARAMETERS_OF, FuzzyTable
 from backend.core.ride import Ride
 from backend.law.comparison import cells_changed
 from backend.rides.settings_in_force import ConfigOf
-from backend.tuning.library.compare import Difference, differences
+from backend.tuning.types import ParameterChange, differences
 
 Part = tuple[Ride, float, float]
 """A ride, and a window of it from and to, s after its start."""
@@ -26,9 +26,7 @@ def settings_difference(config_of: ConfigOf, a: Part, b: Part) -> dict[str, Any]
     views = [side_of(a, are_known[0]), side_of(b, are_known[1])]
     answer: dict[str, Any] = {"a": views[0], "b": views[1], "differences": None, "tables": []}
     if all(are_known):
-        old, new = (
-            {name: of_today(name, value) for name, value in config.items()} for config, _ in sides
-        )
+        old, new = (config for config, _ in sides)
         answer["differences"] = differences(old, new)
         answer["tables"] = [
             table
@@ -56,18 +54,8 @@ def side_of(part: Part, is_known: bool) -> dict[str, Any]:
     }
 
 
-def of_today(name: str, value: Any) -> Any:
-    """A parameter with its choices as they are spelled today; versions up to 0.2 kept them in
-    capital letters. Names and the labels of rules stay as they are."""
-    if name.endswith(("_name", "_names", "_rules")):
-        return value
-    if isinstance(value, list | tuple):
-        return [of_today(name, one) for one in value]
-    return value.lower() if isinstance(value, str) else value
-
-
 def table_difference(
-    old: Mapping[str, Any], new: Mapping[str, Any], which: str, changed: Sequence[Difference]
+    old: Mapping[str, Any], new: Mapping[str, Any], which: str, changed: Sequence[ParameterChange]
 ) -> dict[str, Any] | None:
     """One of the two tables of both sides with the rules that differ; None if nothing does."""
     names = set(PARAMETERS_OF[which].values())

@@ -8,9 +8,11 @@ every ride before. A ride on which it was changed is on neither side.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
+from datetime import datetime
+from typing import Literal
 
 from backend.core._generated import STANDING_S
+from backend.core.described import described
 from backend.core.energy import SECONDS_PER_HOUR
 from backend.core.revision import Revision
 from backend.core.ride import Ride
@@ -27,10 +29,55 @@ MEANING = (
     " wind and another day: what moved may be theirs."
 )
 
+Trend = Literal["more", "less", "mixed", "too_few"]
 RevisionsOf = Callable[[str], Sequence[Revision]]
 
 
+@described
+class RidesTogether:
+    """What some rides of a unit come to together; null where none of them tells it.
+
+    Rider and motor energy are never added up: `assist_ratio` is the motor's over the rider's.
+    """
+
+    ride_ids: list[int]
+    """Newest first; at most 20, each of 500 m and more."""
+    distance_km: float
+    speed_kmh_mean: float | None
+    """While moving."""
+    motor_rides: int
+    """Of the rides those whose motor work was measured."""
+    motor_wh_per_km: float | None
+    """Work at the motor's shaft."""
+    motor_wh_per_km_least: float | None
+    """Of one ride."""
+    motor_wh_per_km_most: float | None
+    rider_wh_per_km: float | None
+    battery_wh_per_km: float | None
+    assist_ratio: float | None
+
+
+@described
 class SinceChange:
+    """The rides since a change beside those before it."""
+
+    seq: int
+    created_at: datetime
+    meaning: str
+    """What it cannot tell, in English."""
+    before: RidesTogether
+    after: RidesTogether
+    motor_wh_per_km_after: Trend
+    """`more`, `less`: every ride since took more, or less, than every ride before. `mixed`: they
+    overlap. `too_few`: fewer than 3 on a side."""
+    during_ids: list[int]
+    """Rides on which the change was made: they are on neither side."""
+    other_changes: int
+    """How many other configurations the unit got between the first and the last of these rides:
+    what moved may be theirs."""
+
+
+class RidesSinceChange:
     """Rides of a unit on either side of a change. Safe from any thread.
 
     revisions_of: of a device that is connected or was, newest first; raises NotFound.
@@ -40,8 +87,8 @@ class SinceChange:
         self._store = store
         self._revisions_of = revisions_of
 
-    def __call__(self, device_id: str, seq: int) -> dict[str, Any]:
-        """The comparison as in the API. Raises NotFound for an unknown revision."""
+    def __call__(self, device_id: str, seq: int) -> SinceChange:
+        """The comparison. Raises NotFound for an unknown revision."""
         revisions = self._revisions_of(device_id)
         change = next((revision for revision in revisions if revision.seq == seq), None)
         if change is None:
@@ -50,16 +97,16 @@ class SinceChange:
         after = self._rides(change.unit_key, from_us=change.created_us)
         during = [ride for ride in before[:1] if rode_on(ride, change.crc32)]
         before = before[len(during) :]
-        return {
-            "seq": seq,
-            "created_at": change.created_at,
-            "meaning": MEANING,
-            "before": figures(before),
-            "after": figures(after),
-            "during_ids": [ride.id for ride in during],
-            "motor_wh_per_km_after": moved(before, after),
-            "other_changes": other_changes(revisions, change, [*before, *after]),
-        }
+        return SinceChange(
+            seq=seq,
+            created_at=change.created_at,
+            meaning=MEANING,
+            before=figures(before),
+            after=figures(after),
+            motor_wh_per_km_after=moved(before, after),
+            during_ids=[ride.id for ride in during],
+            other_changes=other_changes(revisions, change, [*before, *after]),
+        )
 
     def _rides(
         self, unit_key: str, from_us: int | None = None, to_us: int | None = None
@@ -87,7 +134,7 @@ def rode_on(ride: Ride, crc32: int | None) -> bool:
     )
 
 
-def figures(rides: Sequence[Ride]) -> dict[str, Any]:
+def figures(rides: Sequence[Ride]) -> RidesTogether:
     """What some rides come to together; None where no ride tells it. Rider and motor are never
     added up, so the share of either is given as their ratio."""
     moving_s = total(rides, "moving_s")
@@ -95,18 +142,18 @@ def figures(rides: Sequence[Ride]) -> dict[str, Any]:
     each = per_km(rides)
     with_both = [ride for ride in rides if knows(ride, "motor_wh") and knows(ride, "rider_wh")]
     rider_wh = total(with_both, "rider_wh")
-    return {
-        "ride_ids": [ride.id for ride in rides],
-        "distance_km": km,
-        "speed_kmh_mean": km / (moving_s / SECONDS_PER_HOUR) if moving_s else None,
-        "motor_rides": len(each),
-        "motor_wh_per_km": by_km(rides, "motor_wh"),
-        "motor_wh_per_km_least": min(each, default=None),
-        "motor_wh_per_km_most": max(each, default=None),
-        "rider_wh_per_km": by_km(rides, "rider_wh"),
-        "battery_wh_per_km": by_km(rides, "battery_wh"),
-        "assist_ratio": (total(with_both, "motor_wh") or 0.0) / rider_wh if rider_wh else None,
-    }
+    return RidesTogether(
+        ride_ids=[ride.id for ride in rides],
+        distance_km=km,
+        speed_kmh_mean=km / (moving_s / SECONDS_PER_HOUR) if moving_s else None,
+        motor_rides=len(each),
+        motor_wh_per_km=by_km(rides, "motor_wh"),
+        motor_wh_per_km_least=min(each, default=None),
+        motor_wh_per_km_most=max(each, default=None),
+        rider_wh_per_km=by_km(rides, "rider_wh"),
+        battery_wh_per_km=by_km(rides, "battery_wh"),
+        assist_ratio=(total(with_both, "motor_wh") or 0.0) / rider_wh if rider_wh else None,
+    )
 
 
 def knows(ride: Ride, name: str) -> bool:
@@ -134,7 +181,7 @@ def per_km(rides: Sequence[Ride]) -> list[float]:
     return [wh_per_km for wh_per_km in each if wh_per_km is not None]
 
 
-def moved(before: Sequence[Ride], after: Sequence[Ride]) -> str:
+def moved(before: Sequence[Ride], after: Sequence[Ride]) -> Trend:
     """`more` or `less` where every ride after took that than every ride before; `mixed` where they
     overlap, `too_few` where there are not enough to tell."""
     then, now = per_km(before), per_km(after)

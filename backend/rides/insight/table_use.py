@@ -306,23 +306,19 @@ def channels_missing(ride: Ride) -> list[str]:
 
 
 def slots_by(config: Mapping[str, Any], table: str) -> list[int]:
-    """The mode slots that run by a table.
-
-    Units of the first version had one table only; up to 0.2 choices were kept in upper case.
-    """
-    laws = config.get("mode_laws", ())
-    numbers = config.get("mode_tables", [0] * len(laws))
+    """The mode slots that run by a table."""
+    laws, numbers = config.get("mode_laws", ()), config.get("mode_tables", ())
     law_number = tuple(PARAMETERS_OF).index(table)
     return [
         slot
         for slot, (law, number) in enumerate(zip(laws, numbers, strict=True))
-        if str(law).lower() == "fuzzy" and number == law_number
+        if law == "fuzzy" and number == law_number
     ]
 
 
 def needs_gain(config: Mapping[str, Any]) -> bool:
     """Whether a gain of nothing was not the table's: the unit has none while the torque falls."""
-    return str(config.get("fuzzy_falling_torque", HOLD_ZERO_RATE)).lower() != HOLD_ZERO_RATE
+    return bool(config.get("fuzzy_falling_torque", HOLD_ZERO_RATE) != HOLD_ZERO_RATE)
 
 
 def names_for_use(ride: Ride) -> list[str]:

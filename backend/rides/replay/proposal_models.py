@@ -10,7 +10,7 @@ from backend.core.api_models import Answer, RequestBody
 from backend.core.parameter_value import Parameters
 from backend.rides.replay.propose import ProposalFigure
 from backend.tuning.library.models import LibraryEntry
-from backend.tuning.models.config import ParameterChange
+from backend.tuning.types import ParameterChange
 
 Objective = Literal["more_range", "gentler_start", "flatter_at_the_limit"]
 Knob = Literal["ratio", "band", "filter", "torque_rate", "cells"]

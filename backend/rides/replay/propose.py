@@ -34,6 +34,7 @@ from backend.rides.replay.ride_again import twin_of
 from backend.rides.settings_in_force import ConfigOf, unchanged
 from backend.store import Store
 from backend.tuning.limit_proof import LimitProofMaker
+from backend.tuning.types import ParameterChange
 
 JOBS_MAX = 20
 WAITING_MAX = 4
@@ -75,7 +76,7 @@ class Candidate:
     battery_wh_per_km: ProposalFigure
     duration_s: ProposalFigure
     parameters: dict[str, Any]
-    changed: tuple[dict[str, Any], ...]
+    changed: tuple[ParameterChange, ...]
     limit_proof_sha256: str
     document: dict[str, Any]
 
@@ -294,8 +295,7 @@ class Proposals:
             duration_s=duration,
             parameters=changes,
             changed=tuple(
-                {"name": name, "old": work.config[name], "new": value}
-                for name, value in changes.items()
+                ParameterChange(name, work.config[name], value) for name, value in changes.items()
             ),
             limit_proof_sha256=sha256,
             document=settings_document(

@@ -16,6 +16,7 @@ from backend.law.comparison import TableComparison, compare_tables
 from backend.law.feel import Feel, feel_of
 from backend.tuning.library.service import Library
 from backend.tuning.service import Tuning
+from backend.tuning.types import ParameterChange, differences
 
 # Figures that are kept in memory; measuring anew takes an eighth of a second.
 MEASURED_MAX = 500
@@ -57,22 +58,13 @@ class TableReview:
 
 
 @dataclass(frozen=True)
-class Difference:
-    """A parameter that differs; None where a side says nothing of it."""
-
-    name: str
-    old: Any
-    new: Any
-
-
-@dataclass(frozen=True)
 class Comparison:
     """parameters: what differs, right against left; of a table beside a configuration only what the
     table has. tables: None where a side has none."""
 
     left: TableReview
     right: TableReview
-    parameters: tuple[Difference, ...]
+    parameters: tuple[ParameterChange, ...]
     tables: TableComparison | None
 
 
@@ -159,16 +151,6 @@ class Compare:
             if revision.seq == side.revision:
                 return f"{side.device} {revision.seq}", "configuration", dict(revision.parameters)
         raise NotFound(f"{side.device} has no revision {side.revision}.")
-
-
-def differences(old: Mapping[str, Any], new: Mapping[str, Any]) -> tuple[Difference, ...]:
-    """What differs between two sets of parameters by name, in the order of the first."""
-    names = [*old, *(name for name in new if name not in old)]
-    return tuple(
-        Difference(name, old.get(name), new.get(name))
-        for name in names
-        if old.get(name) != new.get(name)
-    )
 
 
 def own_names(review: TableReview, side: Side) -> dict[str, Any]:

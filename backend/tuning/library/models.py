@@ -12,8 +12,8 @@ from backend.law.comparison import TableComparison
 from backend.law.feel import Feel
 from backend.law.fis.evaluation import Deviation
 from backend.tuning.library.service import LibraryRow
-from backend.tuning.models.config import ParameterChange
 from backend.tuning.models.law import FuzzyTable, Table
+from backend.tuning.types import ParameterChange
 
 PARAMETERS_MAX = 400
 

@@ -782,7 +782,7 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/v1/devices/{device_id}/live": {
+    "/api/v1/devices/{device_id}/trial-values": {
         parameters: {
             query?: never;
             header?: never;
@@ -790,21 +790,21 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * Get Live
-         * @description What is tried in the unit's memory now, and until when.
+         * Get Trial Values
+         * @description What is on trial in the unit's memory now, and until when.
          */
-        get: operations["get_live"];
+        get: operations["get_trial_values"];
         put?: never;
         /**
-         * Set Live
-         * @description Tries values at once, standing or moving; a restart, a commit or the time ends it.
+         * Set Trial Values
+         * @description Puts values on trial at once, standing or moving; a restart, a commit or the time ends it.
          */
-        post: operations["set_live"];
+        post: operations["set_trial_values"];
         /**
-         * End Live
-         * @description Ends what is tried: the law runs on the configuration again.
+         * End Trial Values
+         * @description Ends what is on trial: the law runs on the configuration again.
          */
-        delete: operations["end_live"];
+        delete: operations["end_trial_values"];
         options?: never;
         head?: never;
         patch?: never;
@@ -3405,7 +3405,10 @@ export interface components {
             /** @description Null where a side has no table. */
             tables: components["schemas"]["TableComparison"] | null;
         };
-        /** Config */
+        /**
+         * Config
+         * @description A unit's whole configuration; parameters by registry name.
+         */
         Config: {
             /**
              * Unit Key
@@ -3437,7 +3440,8 @@ export interface components {
             crc32: number;
             /**
              * State
-             * @description `provisional`: given up at `expires_at` unless it is confirmed. `needs_restart`: holds from the unit's next start on.
+             * @description `provisional`: given up at `expires_at` unless it is confirmed. `needs_restart`: holds from
+             *     the unit's next start on.
              * @enum {string}
              */
             state: "committed" | "provisional" | "needs_restart";
@@ -5431,35 +5435,6 @@ export interface components {
             gear_ratio?: number | null;
         };
         /**
-         * Live
-         * @description What is tried on top of the configuration: the values in force that differ from it.
-         */
-        Live: {
-            /** Parameters */
-            parameters: {
-                [key: string]: number | string | (number | string)[] | (number | string)[][] | null;
-            };
-            /** Remaining S */
-            remaining_s: number | null;
-            /** Expires At */
-            expires_at: string | null;
-        };
-        /**
-         * LiveRequest
-         * @description Values to try at once, in the unit's memory alone.
-         */
-        LiveRequest: {
-            /** Parameters */
-            parameters: {
-                [key: string]: number | string | (number | string)[] | (number | string)[][] | null;
-            };
-            /**
-             * Ttl S
-             * @description The unit ends it after so many seconds.
-             */
-            ttl_s: number;
-        };
-        /**
          * LoadShare
          * @description A share of the load of a level crank, and its standard uncertainty.
          */
@@ -5688,7 +5663,9 @@ export interface components {
          * @description What a parameter is, and its value in the unit now.
          *
          *     `min`, `max` and `choices` are the unit's own bounds. Choices are in lower case, but for the
-         *     labels of rules, NB NS ZO PS PB; they are taken in any case.
+         *     labels of rules, NB NS ZO PS PB; they are taken in any case. `may_be_none`: `null` is a value, a
+         *     correction that is not known. `of_the_unit`: measured or set for this one unit and its bike, as
+         *     the sensor's calibration and the wheel, so no part of a set-up for another one.
          */
         Parameter: {
             /** Id */
@@ -5714,28 +5691,31 @@ export interface components {
              * @enum {string}
              */
             access: "rider" | "dealer" | "factory";
-            /** Value */
-            value: number | string | (number | string)[] | (number | string)[][] | null;
+            /** Choices */
+            choices: string[] | null;
+            /** Length */
+            length: number | null;
+            /** Description */
+            description: string;
             /**
              * May Be None
-             * @description Whether `null` is a value: a correction that is not known.
              * @default false
              */
             may_be_none: boolean;
             /**
              * Of The Unit
-             * @description Whether it was measured or set for this one unit and its bike, as the sensor's calibration and the wheel: no part of a set-up for another one.
              * @default false
              */
             of_the_unit: boolean;
+            /** Value */
+            value: number | string | (number | string)[] | (number | string)[][] | null;
             /** @description Only of parameters that are held near the factory's value. */
             free: components["schemas"]["Free"] | null;
-            /** Choices */
-            choices: string[] | null;
-            /** Description */
-            description: string;
         };
-        /** ParameterChange */
+        /**
+         * ParameterChange
+         * @description One parameter that became another.
+         */
         ParameterChange: {
             /** Name */
             name: string;
@@ -7968,7 +7948,8 @@ export interface components {
             after: components["schemas"]["RidesTogether"];
             /**
              * Motor Wh Per Km After
-             * @description `more`, `less`: every ride since took more, or less, than every ride before. `mixed`: they overlap. `too_few`: fewer than 3 on a side.
+             * @description `more`, `less`: every ride since took more, or less, than every ride before. `mixed`: they
+             *     overlap. `too_few`: fewer than 3 on a side.
              * @enum {string}
              */
             motor_wh_per_km_after: "more" | "less" | "mixed" | "too_few";
@@ -7979,7 +7960,8 @@ export interface components {
             during_ids: number[];
             /**
              * Other Changes
-             * @description How many other configurations the unit got between the first and the last of these rides: what moved may be theirs.
+             * @description How many other configurations the unit got between the first and the last of these rides:
+             *     what moved may be theirs.
              */
             other_changes: number;
         };
@@ -8493,6 +8475,37 @@ export interface components {
             latitude_deg: (number | null)[] | null;
             /** Longitude Deg */
             longitude_deg: (number | null)[] | null;
+        };
+        /**
+         * TrialValues
+         * @description What is on trial over the configuration, in the unit's memory alone; null where nothing is.
+         *
+         *     parameters: those that differ from the configuration, with the value in force.
+         */
+        TrialValues: {
+            /** Parameters */
+            parameters: {
+                [key: string]: number | string | (number | string)[] | (number | string)[][] | null;
+            };
+            /** Remaining S */
+            remaining_s: number | null;
+            /** Expires At */
+            expires_at: string | null;
+        };
+        /**
+         * TrialValuesRequest
+         * @description Values to put on trial at once, in the unit's memory alone.
+         */
+        TrialValuesRequest: {
+            /** Parameters */
+            parameters: {
+                [key: string]: number | string | (number | string)[] | (number | string)[][] | null;
+            };
+            /**
+             * Ttl S
+             * @description The unit ends it after so many seconds.
+             */
+            ttl_s: number;
         };
         /**
          * Trust
@@ -12971,7 +12984,7 @@ export interface operations {
             };
         };
     };
-    get_live: {
+    get_trial_values: {
         parameters: {
             query?: never;
             header?: {
@@ -12991,7 +13004,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["Live"];
+                    "application/json": components["schemas"]["TrialValues"];
                 };
             };
             /** @description Unauthorized */
@@ -13068,7 +13081,7 @@ export interface operations {
             };
         };
     };
-    set_live: {
+    set_trial_values: {
         parameters: {
             query?: never;
             header?: {
@@ -13082,7 +13095,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["LiveRequest"];
+                "application/json": components["schemas"]["TrialValuesRequest"];
             };
         };
         responses: {
@@ -13092,7 +13105,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["Live"];
+                    "application/json": components["schemas"]["TrialValues"];
                 };
             };
             /** @description The body is not JSON */
@@ -13178,7 +13191,7 @@ export interface operations {
             };
         };
     };
-    end_live: {
+    end_trial_values: {
         parameters: {
             query?: never;
             header?: {
@@ -13198,7 +13211,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["Live"];
+                    "application/json": components["schemas"]["TrialValues"];
                 };
             };
             /** @description Unauthorized */

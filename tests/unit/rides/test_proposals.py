@@ -153,7 +153,7 @@ def test_every_candidate_is_better_clean_and_says_all_that_it_sets(
         energy = one.battery_wh_per_km
         assert energy.low <= energy.after <= energy.high
         assert one.gained_pct == pytest.approx(100.0 * (energy.before / energy.after - 1.0))
-        assert {change["name"] for change in one.changed} == set(one.parameters)
+        assert {change.name for change in one.changed} == set(one.parameters)
         assert codes_of({**law_defaults(), **one.parameters}, "first") <= before_codes
         assert library_document(one.document) == one.document
     assert chosen(job)

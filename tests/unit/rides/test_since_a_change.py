@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -17,7 +16,7 @@ import pytest
 from backend.core.revision import Revision
 from backend.core.ride_events import SETTINGS, RideEvent
 from backend.errors import NotFound
-from backend.rides.comparison.since_change import SinceChange
+from backend.rides.comparison.since_change import RidesSinceChange
 from backend.store import Store, open_store
 from tests.fakes.kept_rides import recorded_ride
 
@@ -38,7 +37,7 @@ class Workshop:
         self.store: Store = open_store(f"sqlite:///{folder}/db", f"file://{folder}/objects")
         self.history: list[Revision] = []
         self.now_us = 1_700_000_000_000_000
-        self.since = SinceChange(self.store, lambda device_id: self.history)
+        self.since = RidesSinceChange(self.store, lambda device_id: self.history)
 
     def ride(
         self,
@@ -87,18 +86,18 @@ def test_rides_on_either_side_of_a_change_are_told_by_distance(workshop: Worksho
 
     answer = workshop.since("dev1", seq)
 
-    then, now = answer["before"], answer["after"]
-    assert then["ride_ids"] == before[::-1]
-    assert now["ride_ids"] == after[::-1]
+    then, now = answer.before, answer.after
+    assert then.ride_ids == before[::-1]
+    assert now.ride_ids == after[::-1]
     # Watts over 36 km/h are Wh for a kilometre.
-    assert then["motor_wh_per_km"] == pytest.approx(198.0 / 36.0, rel=0.02)
-    assert now["motor_wh_per_km_least"] == pytest.approx(108.0 / 36.0, rel=0.02)
-    assert now["motor_wh_per_km_most"] == pytest.approx(162.0 / 36.0, rel=0.02)
-    assert now["rider_wh_per_km"] == pytest.approx(RIDER_W / 36.0, rel=0.02)
-    assert now["assist_ratio"] == pytest.approx(138.0 / RIDER_W, rel=0.02)
-    assert now["speed_kmh_mean"] == pytest.approx(36.0, rel=0.01)
-    assert answer["motor_wh_per_km_after"] == "less"
-    assert answer["other_changes"] == 0
+    assert then.motor_wh_per_km == pytest.approx(198.0 / 36.0, rel=0.02)
+    assert now.motor_wh_per_km_least == pytest.approx(108.0 / 36.0, rel=0.02)
+    assert now.motor_wh_per_km_most == pytest.approx(162.0 / 36.0, rel=0.02)
+    assert now.rider_wh_per_km == pytest.approx(RIDER_W / 36.0, rel=0.02)
+    assert now.assist_ratio == pytest.approx(138.0 / RIDER_W, rel=0.02)
+    assert now.speed_kmh_mean == pytest.approx(36.0, rel=0.01)
+    assert answer.motor_wh_per_km_after == "less"
+    assert answer.other_changes == 0
 
 
 def test_what_cannot_be_told_is_said(workshop: Workshop) -> None:
@@ -112,17 +111,15 @@ def test_what_cannot_be_told_is_said(workshop: Workshop) -> None:
 
     answer = workshop.since("dev1", second)
 
-    assert len(answer["before"]["ride_ids"]) == 1
-    assert answer["motor_wh_per_km_after"] == "too_few"
-    assert (len(answer["after"]["ride_ids"]), answer["after"]["motor_rides"]) == (3, 2)
+    assert len(answer.before.ride_ids) == 1
+    assert answer.motor_wh_per_km_after == "too_few"
+    assert (len(answer.after.ride_ids), answer.after.motor_rides) == (3, 2)
     # Nothing was ridden before the first; the second lies within what was ridden since.
     answer = workshop.since("dev1", first)
-    nothing: dict[str, Any] = answer["before"]
-    assert nothing["ride_ids"] == []
-    assert {nothing["motor_wh_per_km"], nothing["assist_ratio"], nothing["speed_kmh_mean"]} == {
-        None
-    }
-    assert answer["other_changes"] == 1
+    nothing = answer.before
+    assert nothing.ride_ids == []
+    assert {nothing.motor_wh_per_km, nothing.assist_ratio, nothing.speed_kmh_mean} == {None}
+    assert answer.other_changes == 1
 
 
 def test_rides_that_overlap_are_told_so(workshop: Workshop) -> None:
@@ -132,7 +129,7 @@ def test_rides_that_overlap_are_told_so(workshop: Workshop) -> None:
     for motor_w in (140.0, 160.0, 120.0):
         workshop.ride(motor_w)
 
-    assert workshop.since("dev1", seq)["motor_wh_per_km_after"] == "mixed"
+    assert workshop.since("dev1", seq).motor_wh_per_km_after == "mixed"
 
 
 def test_a_ride_on_which_it_was_changed_is_on_neither_side(workshop: Workshop) -> None:
@@ -143,8 +140,8 @@ def test_a_ride_on_which_it_was_changed_is_on_neither_side(workshop: Workshop) -
 
     told = workshop.since("u1", seq)
 
-    assert (told["before"]["ride_ids"], told["during_ids"]) == ([whole], [ridden])
-    assert told["after"]["ride_ids"] == [after]
+    assert (told.before.ride_ids, told.during_ids) == ([whole], [ridden])
+    assert told.after.ride_ids == [after]
 
 
 def test_a_change_while_the_bike_stood_at_the_end_is_after_the_ride(workshop: Workshop) -> None:
@@ -153,7 +150,7 @@ def test_a_change_while_the_bike_stood_at_the_end_is_after_the_ride(workshop: Wo
 
     told = workshop.since("u1", seq)
 
-    assert (told["before"]["ride_ids"], told["during_ids"]) == ([ridden], [])
+    assert (told.before.ride_ids, told.during_ids) == ([ridden], [])
 
 
 def test_a_configuration_that_never_was_is_not_found(workshop: Workshop) -> None:

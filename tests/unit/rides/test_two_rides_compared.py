@@ -111,9 +111,7 @@ def test_settings_differ_by_name_and_by_cell(store: Store) -> None:
     changed = law_defaults() | {"fuzzy_rules": rules, "wheel_circumference_m": 2.2}
 
     def of(ride: Ride, t_s: float = 0.0) -> tuple[dict[str, Any], str]:
-        # As versions up to 0.2 kept their choices: that is no difference.
-        spelled = {"fuzzy_inference": law_defaults()["fuzzy_inference"].upper()}
-        return (law_defaults() | spelled if ride.id == a else changed), "ride"
+        return (law_defaults() if ride.id == a else changed), "ride"
 
     told = RideComparison(store, of)(Window(a), Window(b))["settings"]
 

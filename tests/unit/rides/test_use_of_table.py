@@ -134,15 +134,6 @@ def test_a_moment_belongs_to_the_table_its_mode_ran_by(shop: Shop) -> None:
     assert [row["seconds"] for row in second["rows"]] == pytest.approx([0, 0, 0, 1, 0])
 
 
-def test_a_configuration_of_an_older_version_is_understood(shop: Shop) -> None:
-    shop.config["mode_laws"] = ["OFF", "FIXED", "FIXED", "FUZZY", "FUZZY"]
-    shop.config["fuzzy_falling_torque"] = "HOLD_ZERO_RATE"
-    del shop.config["mode_tables"]
-    shop.ride({**AT_TEN, "fuzzy_gain": 0.0})
-
-    assert shop.asked()["assisted_s"] == pytest.approx(1.0)
-
-
 def test_of_a_ride_that_says_nothing_it_is_told_why(shop: Shop) -> None:
     unassisted = shop.ride({**AT_TEN, "assist_mode": 1.0})
     head_unit = shop.ride({"speed_kmh": 20.0, "cadence_rpm": 60.0})

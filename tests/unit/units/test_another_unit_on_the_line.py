@@ -105,7 +105,7 @@ def test_a_change_that_names_its_unit_is_refused_at_another_one(bench: Bench) ->
         lambda bench, unit: unit.clear_faults(),
         lambda bench, unit: unit.confirm_config(default_config()),
         lambda bench, unit: unit.rollback_config(),
-        lambda bench, unit: unit.end_live(),
+        lambda bench, unit: unit.end_trial_values(),
     ],
     ids=["read", "clear faults", "keep a trial", "end a trial", "end what is tried"],
 )

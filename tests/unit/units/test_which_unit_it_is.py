@@ -20,9 +20,9 @@ from backend.errors import Conflict, NameFirst
 from backend.imports.service import Uploads
 from backend.imports.unit_logs import Collect, word_of
 from backend.store import Store, open_store
-from backend.tuning.live_set import LiveTuning
 from backend.tuning.records import RevisionStore
 from backend.tuning.service import Tuning
+from backend.tuning.trial_values import TrialTuning
 from backend.units.inspection import Inspection
 from backend.units.memory import UnitMemory
 from backend.units.records import UnitStore
@@ -78,7 +78,7 @@ class Desk:
             self.devices, RevisionStore(store.database), note_unit, self.tuning.note_trial_end
         )
         self.devices.watch(self.memory.follow)
-        self.live = LiveTuning(self.devices)
+        self.live = TrialTuning(self.devices)
         self.inspection = Inspection(self.devices)
         self.uploads = Uploads(store)
         self.collect = Collect(self.devices, self.uploads, folder)

@@ -6,6 +6,7 @@ from __future__ import annotations
 import struct
 import zlib
 from collections.abc import Mapping
+from typing import Any, cast
 
 from backend.core.quantities import plain
 from backend.device.configuration import Free, ParameterRow, ParameterTable
@@ -37,7 +38,7 @@ def _row(row: Parameter, default: Value) -> ParameterRow:
         min=row.min,
         max=row.max,
         default=default,
-        access=word_of(Access(row.access).name),
+        access=cast(Any, word_of(Access(row.access).name)),
         choices=choices_of(row) if row.enum else None,
         length=row.length if row.type == "text" else None,
         description=row.doc,

@@ -15,6 +15,7 @@ const parameter = (name: string): Parameter => ({
   shape: [],
   may_be_none: false,
   of_the_unit: false,
+  length: null,
   unit: 'km/h',
   min: 0,
   max: 25,

@@ -60,6 +60,7 @@ function parameter(name: string): Parameter {
     shape: [],
     may_be_none: false,
     of_the_unit: false,
+    length: null,
     unit: '',
     min,
     max,

@@ -1,46 +1,34 @@
-"""Trying values while the bike runs: in the unit's memory alone, for some seconds, then gone."""
+"""Values on trial while the bike runs: in the unit's memory alone, for some seconds, then gone."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from datetime import UTC, datetime
 
 from backend.device.capability import Capability
-from backend.device.configuration import LiveState, Value
+from backend.device.configuration import Value, ValuesOnTrial
 from backend.errors import FieldError, InvalidRequest, LimitViolation, NoAnswer
+from backend.tuning.types import TrialValues
 from backend.units.outcome import find_outcome, telling
 from backend.units.service import Devices
 
 TTL_S_MAX = 255
 
 
-@dataclass(frozen=True)
-class LiveView:
-    """What is tried and until when; nothing and None where nothing is.
-
-    parameters: those that differ from the configuration, with the value in force.
-    """
-
-    parameters: dict[str, Value]
-    remaining_s: float | None
-    expires_at: datetime | None
-
-
-class LiveTuning:
+class TrialTuning:
     """Values on top of a unit's configuration. For any thread. now_s: Unix time."""
 
     def __init__(self, devices: Devices, now_s: Callable[[], float] = time.time) -> None:
         self._devices = devices
         self._now_s = now_s
 
-    def read(self, device_id: str) -> LiveView:
-        """What is tried, asked of the unit. Raises NotFound, Conflict, NoAnswer."""
-        return self._view(self._devices.writable(device_id).live())
+    def read(self, device_id: str) -> TrialValues:
+        """What is on trial, read from the unit. Raises NotFound, Conflict, NoAnswer."""
+        return self._view(self._devices.writable(device_id).trial_values())
 
-    def set(self, device_id: str, changes: Mapping[str, Value], ttl_s: int) -> LiveView:
-        """Try values for `ttl_s` seconds, on top of what is tried already.
+    def set(self, device_id: str, changes: Mapping[str, Value], ttl_s: int) -> TrialValues:
+        """Put values on trial for `ttl_s` seconds, on top of those that are already.
 
         Raises InvalidRequest, LimitViolation with every fault named, AccessDenied for what the
         maker protects, NotFound, Conflict, NameFirst, NoAnswer.
@@ -63,7 +51,7 @@ class LiveTuning:
         values = {name: rounded[name] for name in changes}
         try:
             with telling("unknown"):
-                state = unit.set_live(values, ttl_s)
+                state = unit.set_trial_values(values, ttl_s)
         except NoAnswer as error:
             if error.outcome != "unknown":
                 raise
@@ -72,27 +60,31 @@ class LiveTuning:
                 self._devices,
                 device_id,
                 key,
-                lambda unit: unit.outcome_of_live(before, values),
+                lambda unit: unit.outcome_of_trial_values(before, values),
                 error,
             )
         return self._view(state)
 
-    def end(self, device_id: str) -> LiveView:
-        """End what is tried: the law runs on the configuration again. Raises as `set`."""
+    def end(self, device_id: str) -> TrialValues:
+        """End what is on trial: the law runs on the configuration again. Raises as `set`."""
         key, unit = self._devices.own(device_id)
         try:
             with telling("unknown"):
-                state = unit.end_live()
+                state = unit.end_trial_values()
         except NoAnswer as error:
             if error.outcome != "unknown":
                 raise
             state = find_outcome(
-                self._devices, device_id, key, lambda unit: unit.outcome_of_live_end(), error
+                self._devices,
+                device_id,
+                key,
+                lambda unit: unit.outcome_of_trial_values_end(),
+                error,
             )
         return self._view(state)
 
-    def _view(self, state: LiveState) -> LiveView:
+    def _view(self, state: ValuesOnTrial) -> TrialValues:
         if state.left_s == 0.0:
-            return LiveView({}, None, None)
+            return TrialValues({}, None, None)
         expires_at = datetime.fromtimestamp(self._now_s() + state.left_s, UTC)
-        return LiveView(state.parameters, state.left_s, expires_at)
+        return TrialValues(state.parameters, state.left_s, expires_at)

@@ -1,4 +1,4 @@
-"""Values tried in a unit's memory alone: set for some seconds, looked at, ended.
+"""Values on trial in a unit's memory alone: set for some seconds, read, ended.
 
 They are over the active configuration for the law, in no flash and in no checksum, moving or not;
 the unit ends them by itself, and with every change of its configuration.
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from backend.device.configuration import LiveState, Value
+from backend.device.configuration import Value, ValuesOnTrial
 from backend.device.ebl.operations.config_transaction import MESSAGE_OVERHEAD_BYTES, read_config
 from backend.device.ebl.operations.parameters import unit_violations
 from backend.device.ebl.session.operation import Operation, attempt, query, query_all
@@ -30,15 +30,15 @@ from firmware_protocol.layout import Parameter
 from firmware_protocol.parameters import ITEM_HEAD, set_items, unpack_image
 
 
-def read_live(mtu: int = MTU) -> Operation[LiveState]:
-    """What is tried, asked of the unit. Raises NoAnswer, DeviceRefused, PeerProtocolError."""
+def read_trial_values(mtu: int = MTU) -> Operation[ValuesOnTrial]:
+    """What is on trial, read from the unit. Raises NoAnswer, DeviceRefused, PeerProtocolError."""
     status = yield from query(CfgStatusRequest(), CfgStatusResponse)
     if status.live_left_ms == 0:
-        return LiveState({}, 0.0)
+        return ValuesOnTrial({}, 0.0)
     config = yield from read_config(mtu)
     in_force = yield from values_in_force(mtu)
     tried = {name: in_force[name] for name in in_force if in_force[name] != config.parameters[name]}
-    return LiveState(tried, status.live_left_ms / 1000.0)
+    return ValuesOnTrial(tried, status.live_left_ms / 1000.0)
 
 
 def values_in_force(mtu: int = MTU) -> Operation[dict[str, Value]]:
@@ -58,8 +58,10 @@ def values_in_force(mtu: int = MTU) -> Operation[dict[str, Value]]:
     return unpack_image(bytes(image))
 
 
-def set_live(changes: Mapping[str, Value], ttl_s: int, mtu: int = MTU) -> Operation[LiveState]:
-    """Try values for `ttl_s` seconds over what is in force, and read them back.
+def set_trial_values(
+    changes: Mapping[str, Value], ttl_s: int, mtu: int = MTU
+) -> Operation[ValuesOnTrial]:
+    """Put values on trial for `ttl_s` seconds over what is in force, and read them back.
 
     changes: checked values by registry name. Raises LimitViolation, AccessDenied, DeviceRefused
     with nothing more tried than before, PeerProtocolError naming what reads back different.
@@ -89,12 +91,12 @@ def set_live(changes: Mapping[str, Value], ttl_s: int, mtu: int = MTU) -> Operat
         raise PeerProtocolError(
             f"The unit tries something else than it was told: {words}", "read_back_differs", wrong
         )
-    return (yield from read_live(mtu))
+    return (yield from read_trial_values(mtu))
 
 
-def outcome_of_live(
+def outcome_of_trial_values(
     before: Mapping[str, Value], values: Mapping[str, Value], mtu: int = MTU
-) -> Operation[LiveState]:
+) -> Operation[ValuesOnTrial]:
     """What is tried, if all of `values` are in force. before: the same names before they were sent.
 
     Raises NoAnswer with the outcome: `unchanged` when none of them is, `changed` when some are.
@@ -102,7 +104,7 @@ def outcome_of_live(
     in_force = yield from values_in_force(mtu)
     taken = [name for name in values if in_force[name] == values[name]]
     if len(taken) == len(values):
-        return (yield from read_live(mtu))
+        return (yield from read_trial_values(mtu))
     if all(in_force[name] == before[name] for name in values):
         raise NoAnswer(
             "The unit did not answer. It was asked again since: nothing of this is tried.",
@@ -115,9 +117,9 @@ def outcome_of_live(
     )
 
 
-def outcome_of_live_end(mtu: int = MTU) -> Operation[LiveState]:
+def outcome_of_trial_values_end(mtu: int = MTU) -> Operation[ValuesOnTrial]:
     """What is tried, if that is nothing. Raises NoAnswer, with `unchanged` when it still is."""
-    state = yield from read_live(mtu)
+    state = yield from read_trial_values(mtu)
     if state.left_s > 0.0:
         raise NoAnswer(
             "The unit did not answer. It was asked again since: the values are still tried.",
@@ -126,7 +128,7 @@ def outcome_of_live_end(mtu: int = MTU) -> Operation[LiveState]:
     return state
 
 
-def end_live() -> Operation[None]:
+def end_trial_values() -> Operation[None]:
     """End what is tried; nothing happens where nothing is."""
     request = LiveSetRequest(0, b"")
     response = yield from attempt(request)

@@ -13,8 +13,8 @@ from datetime import UTC, datetime
 import pytest
 
 from backend.errors import AccessDenied, Conflict, InvalidRequest, LimitViolation
-from backend.tuning.live_set import LiveTuning, LiveView
 from backend.tuning.service import Tuning
+from backend.tuning.trial_values import TrialTuning, TrialValues
 from backend.units.inspection import Inspection
 from backend.units.service import Devices
 from firmware_protocol.parameters import default_config
@@ -26,13 +26,13 @@ from tests.fakes.unit import FakeUnit
 from tests.fakes.unit_link import UnitOpener
 
 NOW_S = 1_700_000_000.0
-NOTHING = LiveView({}, None, None)
+NOTHING = TrialValues({}, None, None)
 
 
 @dataclass
 class Bench:
     devices: Devices
-    live: LiveTuning
+    trial: TrialTuning
     tuning: Tuning
     id: str
 
@@ -43,12 +43,12 @@ def bench() -> Iterator[Bench]:
     devices = Devices(opener=lambda url: UnitOpener(unit, url))
     device = devices.add("socket://bench:1")
     tuning = Tuning(devices, MemoryRevisions())
-    yield Bench(devices, LiveTuning(devices, lambda: NOW_S), tuning, device.id)
+    yield Bench(devices, TrialTuning(devices, lambda: NOW_S), tuning, device.id)
     devices.close()
 
 
 def test_a_choice_is_tried_in_any_case_and_told_in_lower(bench: Bench) -> None:
-    tried = bench.live.set(bench.id, {"fuzzy_inference": "WEIGHTED_AVERAGE"}, 60)
+    tried = bench.trial.set(bench.id, {"fuzzy_inference": "WEIGHTED_AVERAGE"}, 60)
 
     assert tried.parameters == {"fuzzy_inference": "weighted_average"}
 
@@ -56,53 +56,53 @@ def test_a_choice_is_tried_in_any_case_and_told_in_lower(bench: Bench) -> None:
 def test_a_value_is_tried_over_the_configuration_and_leaves_it_alone(bench: Bench) -> None:
     before = bench.tuning.read_config(bench.id)
 
-    tried = bench.live.set(bench.id, {"pedal_stop_ms": 220, "torque_filter_s": 0.7}, 60)
+    tried = bench.trial.set(bench.id, {"pedal_stop_ms": 220, "torque_filter_s": 0.7}, 60)
 
     assert tried.parameters == pytest.approx({"pedal_stop_ms": 220, "torque_filter_s": 0.7})
     assert tried.remaining_s is not None
     assert 0.0 < tried.remaining_s <= 60.0
     assert tried.expires_at == datetime.fromtimestamp(NOW_S + tried.remaining_s, UTC)
-    assert bench.live.read(bench.id).parameters == tried.parameters
+    assert bench.trial.read(bench.id).parameters == tried.parameters
     assert bench.tuning.read_config(bench.id) == before
 
 
 def test_a_second_try_is_on_top_of_the_first_and_ending_it_ends_both(bench: Bench) -> None:
-    bench.live.set(bench.id, {"pedal_stop_ms": 220}, 60)
-    both = bench.live.set(bench.id, {"motor_torque_nm_max": 1.5}, 60)
+    bench.trial.set(bench.id, {"pedal_stop_ms": 220}, 60)
+    both = bench.trial.set(bench.id, {"motor_torque_nm_max": 1.5}, 60)
 
     assert set(both.parameters) == {"pedal_stop_ms", "motor_torque_nm_max"}
-    assert bench.live.end(bench.id) == NOTHING
-    assert bench.live.end(bench.id) == NOTHING
+    assert bench.trial.end(bench.id) == NOTHING
+    assert bench.trial.end(bench.id) == NOTHING
 
 
 @pytest.mark.slow
 def test_what_is_tried_ends_by_itself(bench: Bench) -> None:
-    bench.live.set(bench.id, {"pedal_stop_ms": 220}, 1)
+    bench.trial.set(bench.id, {"pedal_stop_ms": 220}, 1)
 
-    assert eventually(lambda: bench.live.read(bench.id), lambda view: view == NOTHING) == NOTHING
+    assert eventually(lambda: bench.trial.read(bench.id), lambda view: view == NOTHING) == NOTHING
 
 
 def test_a_commit_ends_what_is_tried(bench: Bench) -> None:
-    bench.live.set(bench.id, {"pedal_stop_ms": 220}, 250)
+    bench.trial.set(bench.id, {"pedal_stop_ms": 220}, 250)
 
     bench.tuning.write_config(bench.id, {"torque_filter_s": 0.9})
 
-    assert bench.live.read(bench.id) == NOTHING
+    assert bench.trial.read(bench.id) == NOTHING
 
 
 def test_what_cannot_be_tried_is_named_and_changes_nothing(bench: Bench) -> None:
     with pytest.raises(LimitViolation) as beyond:
-        bench.live.set(bench.id, {"pedal_stop_ms": 60_000}, 10)
+        bench.trial.set(bench.id, {"pedal_stop_ms": 60_000}, 10)
     with pytest.raises(InvalidRequest) as unknown:
-        bench.live.set(bench.id, {"moon_phase": 1}, 10)
+        bench.trial.set(bench.id, {"moon_phase": 1}, 10)
     for ttl_s in (0, 256):
         with pytest.raises(InvalidRequest) as when:
-            bench.live.set(bench.id, {"pedal_stop_ms": 220}, ttl_s)
+            bench.trial.set(bench.id, {"pedal_stop_ms": 220}, ttl_s)
 
     assert [fault.field for fault in beyond.value.fields] == ["pedal_stop_ms"]
     assert [fault.field for fault in unknown.value.fields] == ["moon_phase"]
     assert [fault.field for fault in when.value.fields] == ["ttl_s"]
-    assert bench.live.read(bench.id) == NOTHING
+    assert bench.trial.read(bench.id) == NOTHING
 
 
 def test_a_limit_the_maker_protects_cannot_be_raised_by_trying(bench: Bench) -> None:
@@ -111,9 +111,9 @@ def test_a_limit_the_maker_protects_cannot_be_raised_by_trying(bench: Bench) -> 
     bench.tuning.write_config(bench.id, {"assist_cutoff_kmh": lower - 5.0})
 
     with pytest.raises(AccessDenied):
-        bench.live.set(bench.id, {"assist_cutoff_kmh": lower}, 10)
+        bench.trial.set(bench.id, {"assist_cutoff_kmh": lower}, 10)
 
-    assert bench.live.read(bench.id) == NOTHING
+    assert bench.trial.read(bench.id) == NOTHING
 
 
 def test_a_unit_of_another_firmware_is_not_tried_on() -> None:
@@ -122,7 +122,7 @@ def test_a_unit_of_another_firmware_is_not_tried_on() -> None:
     devices = Devices(opener=lambda url: UnitOpener(unit, url))
     device = devices.add("socket://bench:2")
 
-    for ask in (LiveTuning(devices).read, Inspection(devices).wear_counters):
+    for ask in (TrialTuning(devices).read, Inspection(devices).wear_counters):
         with pytest.raises(Conflict) as caught:
             ask(device.id)
         assert caught.value.code == "read_only"
