@@ -2,7 +2,7 @@
 
 Usage: python -m tests.releases.make VERSION [CODE]
 
-CODE is a checkout of that version with its C extension built, this one unless told. Its server runs
+CODE is a checkout of that version with its C extension built, this one by default. Its server runs
 one simulated unit in virtual time: a ride that coasts, a configuration with a reason, a small file
 that was made here, a name somebody wrote, a calibration that was written, restored and closed, and
 one that is open. What the version says of all that is kept beside its data.
@@ -76,7 +76,7 @@ def lived(data: Path) -> dict[str, Any]:
     table = server.get("/library/even") | {"name": TABLE}
     kept = server.client.post("/library", json=table).json()
     calibrations = calibrated(server, device)
-    told = {
+    answers = {
         "device": device,
         "calibrations": calibrations,
         "zeros": zeros(server, device),
@@ -92,7 +92,7 @@ def lived(data: Path) -> dict[str, Any]:
         ],
     }
     server.stop()
-    return told
+    return answers
 
 
 def calibrated(server: SpindleServer, device: str) -> list[dict[str, Any]]:
@@ -144,7 +144,7 @@ def zeros(server: SpindleServer, device: str) -> list[dict[str, Any]]:
     if not server.client.get(f"/devices/{device}/sensor-drift").is_success:
         return []
     drift = eventually(
-        lambda: server.get(f"/devices/{device}/sensor-drift"), lambda told: bool(told["rides"])
+        lambda: server.get(f"/devices/{device}/sensor-drift"), lambda answer: bool(answer["rides"])
     )
     return [{name: ride[name] for name in ZERO} for ride in drift["rides"]]
 
@@ -174,7 +174,7 @@ def tidied(data: Path, target: Path) -> None:
     database.close()
 
 
-def told_of_this_machine(folder: Path, *more: Path) -> list[str]:
+def names_of_this_machine(folder: Path, *more: Path) -> list[str]:
     """Files that name this machine, its user or its folders: nobody else's business."""
     names = {socket.gethostname(), str(Path.cwd()), str(Path.home()), *map(str, more)}
     user = getpass.getuser()
@@ -195,10 +195,10 @@ def main() -> None:
         sys.exit(f"{target} is there already: a release is made once.")
     os.chdir(code)
     with tempfile.TemporaryDirectory() as folder:
-        told = lived(Path(folder) / "data")
+        answers = lived(Path(folder) / "data")
         made = Path(folder) / "made"
         tidied(Path(folder) / "data", made)
-        names = told_of_this_machine(made, Path(folder), code)
+        names = names_of_this_machine(made, Path(folder), code)
         if names:
             sys.exit(f"These name this machine: {names}")
         packed = io.BytesIO()
@@ -209,7 +209,7 @@ def main() -> None:
             sys.exit(f"{len(packed.getvalue())} bytes are more than {BYTES_MAX}: ride less.")
     target.mkdir()
     (target / "data.tar.xz").write_bytes(packed.getvalue())
-    (target / "told.json").write_text(json.dumps(told, indent=1) + "\n", encoding="utf-8")
+    (target / "answers.json").write_text(json.dumps(answers, indent=1) + "\n", encoding="utf-8")
     print(f"{target}: {len(packed.getvalue())} bytes")
 
 

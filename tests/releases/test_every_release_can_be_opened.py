@@ -19,7 +19,7 @@ from backend.store.upkeep.check import check_store
 from tests.fakes.server import ServerHere
 from tests.releases.make import BYTES_MAX, CHANGED, NAME, REASON, UNIT, lived, zeros
 
-RELEASES = sorted(path.parent for path in Path(__file__).parent.glob("*/told.json"))
+RELEASES = sorted(path.parent for path in Path(__file__).parent.glob("*/answers.json"))
 
 
 @pytest.fixture(params=RELEASES, ids=lambda release: release.name)
@@ -39,9 +39,9 @@ def data(release: Path, tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def told(release: Path) -> dict[str, Any]:
+def answers(release: Path) -> dict[str, Any]:
     """What the version itself said of its data."""
-    found: dict[str, Any] = json.loads((release / "told.json").read_text(encoding="utf-8"))
+    found: dict[str, Any] = json.loads((release / "answers.json").read_text(encoding="utf-8"))
     return found
 
 
@@ -49,12 +49,12 @@ def test_it_is_small(release: Path) -> None:
     assert sum(path.stat().st_size for path in release.iterdir()) < BYTES_MAX
 
 
-def test_every_ride_is_read_row_by_row(data: Path, told: dict[str, Any]) -> None:
+def test_every_ride_is_read_row_by_row(data: Path, answers: dict[str, Any]) -> None:
     urls = (f"sqlite:///{data}/spindle.db", (data / "objects").as_uri())
 
     with open_store(*urls) as store:
         rides = {ride.id: ride for ride in store.rides.list().items}
-        for known in told["rides"]:
+        for known in answers["rides"]:
             ride = rides.pop(known["id"])
             reader = store.rides.reader(ride.id)
             counts = reader.counts([channel.name for channel in ride.channels], 0, ride.row_count)
@@ -68,7 +68,7 @@ def test_every_ride_is_read_row_by_row(data: Path, told: dict[str, Any]) -> None
                 assert (data / "objects" / upload.object_key).is_file()
 
     assert rides == {}
-    assert NAME in [known["name"] for known in told["rides"]]
+    assert NAME in [known["name"] for known in answers["rides"]]
     assert check_store(*urls).is_fine
 
 
@@ -86,7 +86,7 @@ def test_what_the_next_release_leaves_holds_calibrations_and_a_zero(tmp_path: Pa
 
 
 def kept_of(now: Any, before: Any) -> Any:
-    """The part of an answer that an older version told, too: a later one may tell more."""
+    """The part of an answer that an older version had, too: a later one may have more."""
     if isinstance(before, dict):
         return {name: kept_of(now[name], value) for name, value in before.items()}
     if isinstance(before, list) and len(now) == len(before):
@@ -99,7 +99,7 @@ PER_K = ("sensor_offset_counts_per_k", "sensor_gain_share_per_k")
 
 @pytest.mark.slow
 def test_the_server_starts_on_it_and_the_unit_keeps_its_settings(
-    data: Path, told: dict[str, Any]
+    data: Path, answers: dict[str, Any]
 ) -> None:
     with ServerHere(data, [UNIT]) as server:
         device = server.ready_device()
@@ -108,11 +108,11 @@ def test_the_server_starts_on_it_and_the_unit_keeps_its_settings(
         rides = server.get("/rides")["items"]
         series = [server.get(f"/rides/{ride['id']}/series?channels=speed_kmh") for ride in rides]
         # Releases up to 0.5 had no calibrations and did not watch the zero.
-        jobs = [server.get(f"/calibrations/{one['id']}") for one in told.get("calibrations", ())]
+        jobs = [server.get(f"/calibrations/{one['id']}") for one in answers.get("calibrations", ())]
         seen = zeros(server, device)
-        own = {one["id"]: server.get(f"/library/{one['id']}") for one in told["library"]}
+        own = {one["id"]: server.get(f"/library/{one['id']}") for one in answers["library"]}
 
-    kept = {name: value for name, value in told["parameters"].items() if name in parameters}
+    kept = {name: value for name, value in answers["parameters"].items() if name in parameters}
     assert set(CHANGED) <= set(kept)
     assert {name: parameters[name] for name in kept} == kept
     assert parameters["fuzzy_inference"] == "mamdani_centroid"
@@ -120,17 +120,17 @@ def test_the_server_starts_on_it_and_the_unit_keeps_its_settings(
         # Such firmware corrected the readings itself, for 0.02 Nm/K and 0.02 %/K above 20 degrees.
         now = [parameters[name] for name in ("sensor_reference_degc", *PER_K)]
         assert now == [20.0, 2.0, -0.0002]
-    for known in told["revisions"]:
+    for known in answers["revisions"]:
         assert known in [
             {"generation": one["generation"], "reason": one["reason"]} for one in revisions
         ]
     assert REASON in [one["reason"] for one in revisions]
     assert {ride["id"]: ride["name"] for ride in rides} == {
-        known["id"]: known["name"] for known in told["rides"]
+        known["id"]: known["name"] for known in answers["rides"]
     }
-    for before, now in zip(told.get("calibrations", ()), jobs, strict=True):
+    for before, now in zip(answers.get("calibrations", ()), jobs, strict=True):
         assert kept_of(now, before) == before
-    assert [one for one in told.get("zeros", ()) if one not in seen] == []
+    assert [one for one in answers.get("zeros", ()) if one not in seen] == []
     for one in series:
         assert one["channels"][0]["max"]
-    assert own == {one["id"]: one["document"] for one in told["library"]}
+    assert own == {one["id"]: one["document"] for one in answers["library"]}

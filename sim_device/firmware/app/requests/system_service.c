@@ -8,7 +8,7 @@
 
 #define MTU_MIN EBL_MTU_BEFORE_HELLO
 
-static const uint16_t firmware_version[3] = {0, 5, 0};
+static const uint16_t firmware_version[3] = {0, 6, 0};
 
 static void log_session_end(app *unit)
 {
