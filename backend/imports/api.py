@@ -65,7 +65,7 @@ async def import_ride(name: FileName, request: Request, uploads: TheUploads) -> 
 def make_sample_ride(
     rides: TheRides, make: Annotated[Callable[[], int], provided("sample_ride")]
 ) -> Any:
-    """A ride to look round with, simulated and named so; the one that is here, if there is one."""
+    """A sample ride, simulated and named so; the existing one, if there is one."""
     return rides.get(make())
 
 

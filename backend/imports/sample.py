@@ -9,7 +9,7 @@ from backend.law.presets import sample_log
 from backend.store import Store
 
 NAME = "Sample ride, simulated"
-NOTES = "Simulated by Spindle to look round with: nobody rode it."
+NOTES = "Simulated by Spindle for exploring: nobody rode it."
 
 
 def sample_ride(store: Store, uploads: Uploads) -> int:

@@ -2099,7 +2099,7 @@ export interface paths {
         put?: never;
         /**
          * Make Sample Ride
-         * @description A ride to look round with, simulated and named so; the one that is here, if there is one.
+         * @description A sample ride, simulated and named so; the existing one, if there is one.
          */
         post: operations["sample_ride"];
         delete?: never;
