@@ -8,8 +8,8 @@ from enum import StrEnum
 class Capability(StrEnum):
     """What units differ in; the API and the pages use these words.
 
-    unit_trial: the unit itself returns from a change that is not kept. live_set: values are tried
-    in its memory alone. unlock: its maker may permit what its market forbids. unit_limits: it
+    unit_trial: the unit itself returns from a change that is not kept. live_set: values can be on
+    trial in its memory alone. unlock: its maker may permit what its market forbids. unit_limits: it
     enforces limits by itself. unique_id: it has a serial number. restart_to_apply: what is written
     holds from the next start on.
     """

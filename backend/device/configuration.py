@@ -12,7 +12,7 @@ from backend.core.parameter_value import ParameterValue
 from backend.errors import FieldError
 
 Value: TypeAlias = ParameterValue
-Values: TypeAlias = Mapping[str, Value]
+ParameterValues: TypeAlias = Mapping[str, Value]
 
 NO_TRIAL = (
     "No change is on trial in this unit: it was kept, given up or its time ran out. Read the "
@@ -104,27 +104,27 @@ class ParameterTable(ABC):
     rows: Sequence[ParameterRow]
     factory: frozenset[str] = frozenset()
 
-    def free_of(self, name: str, config: Values) -> Free | None:
+    def free_of(self, name: str, config: ParameterValues) -> Free | None:
         """The band of a parameter in this configuration; None for one without."""
         return None
 
     @abstractmethod
-    def faults_of(self, config: Values) -> list[FieldError]:
+    def faults_of(self, config: ParameterValues) -> list[FieldError]:
         """Everything that is wrong with a whole configuration, each element named."""
 
     @abstractmethod
-    def rounded(self, config: Values) -> dict[str, Value]:
+    def rounded(self, config: ParameterValues) -> dict[str, Value]:
         """A checked configuration as the unit will hold it."""
 
     @abstractmethod
-    def crc32_of(self, config: Values) -> int:
+    def crc32_of(self, config: ParameterValues) -> int:
         """The checksum a unit gives for this whole configuration."""
 
     def group(self, name: str) -> tuple[str, ...]:
         """Names of the parameters of one group, in the order of the rows."""
         return tuple(row.name for row in self.rows if row.group == name)
 
-    def unknown_names(self, changes: Values) -> list[FieldError]:
+    def unknown_names(self, changes: ParameterValues) -> list[FieldError]:
         """A fault for each name that is no parameter."""
         names = {row.name for row in self.rows}
         return [

@@ -17,9 +17,9 @@ from backend.device.capability import Capability
 from backend.device.configuration import (
     ConfigImage,
     ParameterTable,
+    ParameterValues,
     TrialStatus,
     Value,
-    Values,
     ValuesOnTrial,
 )
 from backend.device.conversation import Operation
@@ -122,7 +122,7 @@ class Unit(ABC):
         self._lacks(Capability.UNLOCK)
 
     def write_config(
-        self, base: ConfigImage, changes: Values, confirm_s: int = 0, permit: object = None
+        self, base: ConfigImage, changes: ParameterValues, confirm_s: int = 0, permit: object = None
     ) -> ConfigImage:
         """Change what is named on top of `base`, all or nothing, and read everything back.
 
@@ -132,7 +132,7 @@ class Unit(ABC):
         """
         self._lacks(Capability.WRITE_CONFIG)
 
-    def outcome_of_write(self, base: ConfigImage, intended: Values) -> ConfigImage:
+    def outcome_of_write(self, base: ConfigImage, intended: ParameterValues) -> ConfigImage:
         """What became of a write nobody answered: the configuration if it is what was meant.
 
         Raises NoAnswer with the outcome `unchanged`, ConfigConflict, PeerProtocolError; NoAnswer
@@ -150,7 +150,7 @@ class Unit(ABC):
         """Where the active configuration stands."""
         self._lacks(Capability.UNIT_TRIAL)
 
-    def confirm_config(self, intended: Values) -> ConfigImage:
+    def confirm_config(self, intended: ParameterValues) -> ConfigImage:
         """Keep what is on trial once it was read back and compared. Raises Conflict."""
         self._lacks(Capability.UNIT_TRIAL)
 
@@ -166,30 +166,32 @@ class Unit(ABC):
         """As `outcome_of_write`, of a return."""
         self._lacks(Capability.UNIT_TRIAL)
 
-    # ------------------------------------------------------------------ values tried live
+    # ------------------------------------------------------------------ values on trial
 
     def trial_values(self) -> ValuesOnTrial:
-        """What is tried in the unit's memory alone."""
+        """What is on trial in the unit's memory alone."""
         self._lacks(Capability.LIVE_SET)
 
     def values_in_force(self) -> dict[str, Value]:
         """Every parameter as the law uses it now."""
         self._lacks(Capability.LIVE_SET)
 
-    def set_trial_values(self, changes: Values, ttl_s: int) -> ValuesOnTrial:
-        """Try values for `ttl_s` seconds. Raises LimitViolation, AccessDenied."""
+    def set_trial_values(self, changes: ParameterValues, ttl_s: int) -> ValuesOnTrial:
+        """Put values on trial for `ttl_s` seconds. Raises LimitViolation, AccessDenied."""
         self._lacks(Capability.LIVE_SET)
 
-    def outcome_of_trial_values(self, before: Values, values: Values) -> ValuesOnTrial:
-        """As `outcome_of_write`, of values that are tried."""
+    def outcome_of_trial_values(
+        self, before: ParameterValues, values: ParameterValues
+    ) -> ValuesOnTrial:
+        """As `outcome_of_write`, of values on trial."""
         self._lacks(Capability.LIVE_SET)
 
     def end_trial_values(self) -> ValuesOnTrial:
-        """End what is tried; what is tried then."""
+        """End what is on trial; what is on trial then."""
         self._lacks(Capability.LIVE_SET)
 
     def outcome_of_trial_values_end(self) -> ValuesOnTrial:
-        """As `outcome_of_write`, of the end of what is tried."""
+        """As `outcome_of_write`, of the end of what is on trial."""
         self._lacks(Capability.LIVE_SET)
 
     # ------------------------------------------------------------------ faults and wear

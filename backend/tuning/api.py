@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal, cast
+from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Depends, Header, Query, Request, Response
 from fastapi.exceptions import RequestValidationError
@@ -139,7 +139,7 @@ def patch_config(
     """Writes all the named parameters or none, reads them back and compares field by field."""
     change = tuning.write_config(
         device_id,
-        cast("dict[str, Any]", body.parameters),
+        body.parameters,
         body.reason,
         if_match,
         body.confirm_s,
@@ -184,7 +184,7 @@ def get_trial_values(device_id: str, trial: TheTrialTuning) -> Any:
 @router.post("/trial-values", operation_id="set_trial_values", response_model=TrialValues)
 def set_trial_values(device_id: str, body: TrialValuesRequest, trial: TheTrialTuning) -> Any:
     """Puts values on trial at once, standing or moving; a restart, a commit or the time ends it."""
-    return trial.set(device_id, cast("dict[str, Any]", body.parameters), body.ttl_s)
+    return trial.set(device_id, body.parameters, body.ttl_s)
 
 
 @router.delete("/trial-values", operation_id="end_trial_values", response_model=TrialValues)

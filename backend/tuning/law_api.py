@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, cast
+from typing import Annotated, Any
 
 from fastapi import APIRouter
 
@@ -49,17 +49,15 @@ def compute_points(body: PointsRequest, preview: ThePreview) -> Any:
 @router.post("/surface/torque", operation_id="compute_torque_surface", response_model=TorqueSurface)
 def compute_torque_surface(body: TorqueSurfaceRequest, preview: ThePreview) -> Any:
     """What a steady push gets of a table for long, as motor, battery and market leave it."""
-    parameters = cast("dict[str, Any]", body.parameters)
     return preview.torque_surface(
-        parameters, body.mode, body.rider_torque_nm, body.speeds_kmh, body.torque_rates
+        body.parameters, body.mode, body.rider_torque_nm, body.speeds_kmh, body.torque_rates
     )
 
 
 @router.post("/modes/curves", operation_id="compute_mode_curves", response_model=ModeCurves)
 def compute_mode_curves(body: ModeCurvesRequest, preview: ThePreview) -> Any:
     """What each of the five modes gives for a steady push, by the unit's own C law."""
-    parameters = cast("dict[str, Any]", body.parameters)
-    return preview.mode_curves(parameters, body.rider_torque_nm, body.speeds_kmh)
+    return preview.mode_curves(body.parameters, body.rider_torque_nm, body.speeds_kmh)
 
 
 @router.post("/lint", operation_id="lint_table", response_model=LintReport)
@@ -84,9 +82,9 @@ def lint_table(body: LintRequest, preview: ThePreview) -> Any:
 )
 def prove_limits(body: LimitProofRequest, prove: TheProveLimits) -> Any:
     """What is proven of every ride with a configuration, against the law of its market."""
-    parameters = cast("dict[str, Any]", body.parameters)
-    asked = ProofSubject(body.device_id, body.revision, body.library, body.changes(), parameters)
-    return prove(asked)
+    return prove(
+        ProofSubject(body.device_id, body.revision, body.library, body.changes(), body.parameters)
+    )
 
 
 @router.post("/why", operation_id="why_steady", response_model=Why)

@@ -86,7 +86,7 @@ def _fuzzy_table(which: str) -> ConfigPart:
         return stored_json(parameters, which)
 
     def changes(value: Mapping[str, Any]) -> dict[str, Value]:
-        return cast("dict[str, Value]", FuzzyTable.from_json(value).to_parameters(which))
+        return FuzzyTable.from_json(value).to_parameters(which)
 
     fields = {parameter: field + "{index}" for field, parameter in names.items()}
     compared = () if which == "first" else tuple(names[field] for field in SHARED_FIELDS)

@@ -14,9 +14,9 @@ from backend.device.capability import Capability
 from backend.device.configuration import (
     ConfigImage,
     ParameterTable,
+    ParameterValues,
     TrialStatus,
     Value,
-    Values,
     ValuesOnTrial,
 )
 from backend.device.driver import Driver, LinkOpener, Listener
@@ -112,12 +112,12 @@ class EblUnit(Unit):
         return token_from(token)
 
     def write_config(
-        self, base: ConfigImage, changes: Values, confirm_s: int = 0, permit: object = None
+        self, base: ConfigImage, changes: ParameterValues, confirm_s: int = 0, permit: object = None
     ) -> ConfigImage:
         token = cast("Token | None", permit)
         return self._run(write_config(base, changes, self._mtu, confirm_s, token), WRITE_S)
 
-    def outcome_of_write(self, base: ConfigImage, intended: Values) -> ConfigImage:
+    def outcome_of_write(self, base: ConfigImage, intended: ParameterValues) -> ConfigImage:
         return self._run(config_outcome.outcome_of_write(base, intended, self._mtu))
 
     def settings_are_lost(self) -> bool:
@@ -126,7 +126,7 @@ class EblUnit(Unit):
     def trial(self) -> TrialStatus:
         return self._run(trial_status())
 
-    def confirm_config(self, intended: Values) -> ConfigImage:
+    def confirm_config(self, intended: ParameterValues) -> ConfigImage:
         return self._run(config_trial.confirm_config(intended, self._mtu), WRITE_S)
 
     def outcome_of_confirm(self, tried: ConfigImage) -> ConfigImage:
@@ -138,7 +138,7 @@ class EblUnit(Unit):
     def outcome_of_rollback(self, tried: ConfigImage) -> ConfigImage:
         return self._run(config_outcome.outcome_of_rollback(tried, self._mtu))
 
-    # ------------------------------------------------------------------ values tried live
+    # ------------------------------------------------------------------ values on trial
 
     def trial_values(self) -> ValuesOnTrial:
         return self._run(trial_values.read_trial_values(self._mtu))
@@ -146,10 +146,12 @@ class EblUnit(Unit):
     def values_in_force(self) -> dict[str, Value]:
         return self._run(trial_values.values_in_force(self._mtu))
 
-    def set_trial_values(self, changes: Values, ttl_s: int) -> ValuesOnTrial:
+    def set_trial_values(self, changes: ParameterValues, ttl_s: int) -> ValuesOnTrial:
         return self._run(trial_values.set_trial_values(changes, ttl_s, self._mtu))
 
-    def outcome_of_trial_values(self, before: Values, values: Values) -> ValuesOnTrial:
+    def outcome_of_trial_values(
+        self, before: ParameterValues, values: ParameterValues
+    ) -> ValuesOnTrial:
         return self._run(trial_values.outcome_of_trial_values(before, values, self._mtu))
 
     def end_trial_values(self) -> ValuesOnTrial:

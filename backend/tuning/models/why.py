@@ -133,8 +133,8 @@ class Why(Answer):
     recorded: WhyRecorded | None
     differs: list[WhyDiffers] = Field(
         description="What the unit told otherwise than it is worked out here, by more than "
-        "rounding: settings that were only tried are in no configuration, and after a change the "
-        "unit still remembers what was before.",
+        "rounding: settings that were only on trial are in no configuration, and after a change "
+        "the unit still remembers what was before.",
     )
 
 

@@ -2742,8 +2742,8 @@ export interface components {
          * Capability
          * @description What units differ in; the API and the pages use these words.
          *
-         *     unit_trial: the unit itself returns from a change that is not kept. live_set: values are tried
-         *     in its memory alone. unlock: its maker may permit what its market forbids. unit_limits: it
+         *     unit_trial: the unit itself returns from a change that is not kept. live_set: values can be on
+         *     trial in its memory alone. unlock: its maker may permit what its market forbids. unit_limits: it
          *     enforces limits by itself. unique_id: it has a serial number. restart_to_apply: what is written
          *     holds from the next start on.
          * @enum {string}
@@ -8966,7 +8966,7 @@ export interface components {
             recorded: components["schemas"]["WhyRecorded"] | null;
             /**
              * Differs
-             * @description What the unit told otherwise than it is worked out here, by more than rounding: settings that were only tried are in no configuration, and after a change the unit still remembers what was before.
+             * @description What the unit told otherwise than it is worked out here, by more than rounding: settings that were only on trial are in no configuration, and after a change the unit still remembers what was before.
              */
             differs: components["schemas"]["WhyDiffers"][];
         };

@@ -9,7 +9,13 @@ from collections.abc import Mapping
 
 from backend.core.channels import ChannelSpec
 from backend.device.capability import Capability
-from backend.device.configuration import ConfigImage, ParameterRow, ParameterTable, Value, Values
+from backend.device.configuration import (
+    ConfigImage,
+    ParameterRow,
+    ParameterTable,
+    ParameterValues,
+    Value,
+)
 from backend.device.conversation import Operation
 from backend.device.driver import Driver, LinkOpener, Listener
 from backend.device.readings import Snapshot, named_values
@@ -56,7 +62,7 @@ ROWS = (
 NUMBERS = {row.name: row.id for row in ROWS}
 
 
-def _faults_of(config: Values) -> list[FieldError]:
+def _faults_of(config: ParameterValues) -> list[FieldError]:
     faults = []
     for row in ROWS:
         value = config[row.name]
@@ -90,13 +96,13 @@ class TinyParameters(ParameterTable):
 
     rows = ROWS
 
-    def faults_of(self, config: Values) -> list[FieldError]:
+    def faults_of(self, config: ParameterValues) -> list[FieldError]:
         return _faults_of(config)
 
-    def rounded(self, config: Values) -> dict[str, Value]:
+    def rounded(self, config: ParameterValues) -> dict[str, Value]:
         return {row.name: _value_of(row, _count_of(row, config[row.name])) for row in ROWS}
 
-    def crc32_of(self, config: Values) -> int:
+    def crc32_of(self, config: ParameterValues) -> int:
         return zlib.crc32(json.dumps([_count_of(row, config[row.name]) for row in ROWS]).encode())
 
 
@@ -147,11 +153,11 @@ class TinyUnit(Unit):
         return self.run(read_config(), ANSWER_S)
 
     def write_config(
-        self, base: ConfigImage, changes: Values, confirm_s: int = 0, permit: object = None
+        self, base: ConfigImage, changes: ParameterValues, confirm_s: int = 0, permit: object = None
     ) -> ConfigImage:
         return self.run(write_config(base, changes), ANSWER_S)
 
-    def outcome_of_write(self, base: ConfigImage, intended: Values) -> ConfigImage:
+    def outcome_of_write(self, base: ConfigImage, intended: ParameterValues) -> ConfigImage:
         found = self.read_config()
         if found.crc32 == base.crc32:
             raise NoAnswer("The unit was not reached; nothing changed.", outcome="unchanged")
@@ -167,7 +173,7 @@ def read_config() -> Operation[ConfigImage]:
     return ConfigImage(0, TABLE.crc32_of(parameters), parameters)
 
 
-def write_config(base: ConfigImage, changes: Values) -> Operation[ConfigImage]:
+def write_config(base: ConfigImage, changes: ParameterValues) -> Operation[ConfigImage]:
     """Every setting that changes, then all of them read back. Raises as Unit.write_config."""
     if (yield from read_config()).crc32 != base.crc32:
         raise ConfigConflict("Somebody else changed the settings; read them again.")

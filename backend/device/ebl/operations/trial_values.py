@@ -64,7 +64,7 @@ def set_trial_values(
     """Put values on trial for `ttl_s` seconds over what is in force, and read them back.
 
     changes: checked values by registry name. Raises LimitViolation, AccessDenied, DeviceRefused
-    with nothing more tried than before, PeerProtocolError naming what reads back different.
+    with nothing more on trial than before, PeerProtocolError naming what reads back different.
     """
     for items in set_items(changes, mtu - MESSAGE_OVERHEAD_BYTES):
         request = LiveSetRequest(ttl_s, items)
@@ -75,8 +75,8 @@ def set_trial_values(
             raise LimitViolation(f"The unit refuses these values: {words}", fields=fields)
         if response.status == Status.ACCESS:
             raise AccessDenied(
-                "What the maker protects cannot be tried: it needs a token, and a token allows a "
-                "whole configuration. Write it as a change instead."
+                "What the maker protects cannot be put on trial: it needs a token, and a token "
+                "allows a whole configuration. Write it as a change instead."
             )
         if response.status != Status.OK:
             raise refused(request, response)
@@ -88,16 +88,15 @@ def set_trial_values(
     ]
     if wrong:
         words = " ".join(field.message for field in wrong)
-        raise PeerProtocolError(
-            f"The unit tries something else than it was told: {words}", "read_back_differs", wrong
-        )
+        message = f"The unit has something else on trial than it was sent: {words}"
+        raise PeerProtocolError(message, "read_back_differs", wrong)
     return (yield from read_trial_values(mtu))
 
 
 def outcome_of_trial_values(
     before: Mapping[str, Value], values: Mapping[str, Value], mtu: int = MTU
 ) -> Operation[ValuesOnTrial]:
-    """What is tried, if all of `values` are in force. before: the same names before they were sent.
+    """What is on trial, if all of `values` are in force. before: these before they were sent.
 
     Raises NoAnswer with the outcome: `unchanged` when none of them is, `changed` when some are.
     """
@@ -107,29 +106,29 @@ def outcome_of_trial_values(
         return (yield from read_trial_values(mtu))
     if all(in_force[name] == before[name] for name in values):
         raise NoAnswer(
-            "The unit did not answer. It was asked again since: nothing of this is tried.",
+            "The unit did not answer. It was asked again since: nothing of this is on trial.",
             outcome="unchanged",
         )
     raise NoAnswer(
-        "The unit did not answer all of it. It was asked again since: of what was sent it tries "
-        f"only {', '.join(taken) or 'something else'}. End the trial, or send it once more.",
+        "The unit did not answer all of it. It was asked again since: of what was sent only "
+        f"{', '.join(taken) or 'something else'} is on trial. End it, or send it once more.",
         outcome="changed",
     )
 
 
 def outcome_of_trial_values_end(mtu: int = MTU) -> Operation[ValuesOnTrial]:
-    """What is tried, if that is nothing. Raises NoAnswer, with `unchanged` when it still is."""
+    """What is on trial, if that is nothing. Raises NoAnswer, with `unchanged` when it still is."""
     state = yield from read_trial_values(mtu)
     if state.left_s > 0.0:
         raise NoAnswer(
-            "The unit did not answer. It was asked again since: the values are still tried.",
+            "The unit did not answer. It was asked again since: the values are still on trial.",
             outcome="unchanged",
         )
     return state
 
 
 def end_trial_values() -> Operation[None]:
-    """End what is tried; nothing happens where nothing is."""
+    """End what is on trial; nothing happens where nothing is."""
     request = LiveSetRequest(0, b"")
     response = yield from attempt(request)
     if response.status != Status.OK:

@@ -1,4 +1,4 @@
-/* Values tried on the fly: over the active configuration, in RAM alone, and gone by themselves. */
+/* Values on trial: over the active configuration, in RAM alone, and gone by themselves. */
 #ifndef SPINDLE_CONFIG_LIVE_H
 #define SPINDLE_CONFIG_LIVE_H
 
