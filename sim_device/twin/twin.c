@@ -16,7 +16,7 @@
 #define REACH_SHARE_MAX 2.0
 #define CEILING_PLAY_MS 0.05
 #define STALLED_S 20.0
-#define STAND_STEPS_MAX 500 /* the law has forgotten the ride after five seconds at rest */
+#define MEMORY_STEPS 500 /* the law has forgotten the ride after five seconds at rest */
 
 typedef struct {
     const twin_road *road;
@@ -181,7 +181,7 @@ static void stand(ride *self, double stand_s)
     assist_output output;
     double rider_nm;
     self->speed_ms = 0.0;
-    for (size_t k = 0; k < STAND_STEPS_MAX && self->t_s + step_s <= end_s; k++) {
+    for (size_t k = 0; k < MEMORY_STEPS && self->t_s + step_s <= end_s; k++) {
         step(self, 1, &output, &rider_nm);
     }
     self->totals->battery_j += self->bike->idle_w * fmax(end_s - self->t_s, 0.0);
@@ -189,6 +189,28 @@ static void stand(ride *self, double stand_s)
     /* The wheel's first pulses come a little after it moved off: from there it goes on. */
     self->speed_ms =
         fmax(self->road->speed_ms[point_at(self->road, self->distance_m + 0.1)], PUSHED_OFF_MS);
+}
+
+/* A ride that begins on the way: the law remembers a road that nobody recorded. What lies ahead
+ * stands for it, ridden out and back as recorded, so that its end fits the beginning. Of the minute
+ * that a market's continuous power is the mean of this tells nothing. */
+static void remember(ride *self)
+{
+    const twin_road *road = self->road;
+    const double step_s = (double)self->law->step_s;
+    assist_output output;
+    for (int k = -MEMORY_STEPS; k < MEMORY_STEPS; k++) {
+        const size_t at = point_at(road, self->distance_m);
+        const double rider_nm = road->braking[at] ? 0.0 : road->rider_nm[at];
+        const double speed_ms = fmax(road->speed_ms[at], PUSHED_OFF_MS);
+        const double chainring_rad_s = speed_ms / road->reach_m[at];
+        self->speed_ms = speed_ms;
+        self->motor_nm = assist_nm(self, at, rider_nm, chainring_rad_s, road->braking[at], &output);
+        supply(self, self->motor_nm, chainring_rad_s * (double)self->law->gear_ratio, step_s);
+        self->distance_m = fmax(self->distance_m + (k < 0 ? speed_ms : -speed_ms) * step_s, 0.0);
+    }
+    self->distance_m = 0.0;
+    self->totals->battery_j = 0.0;
 }
 
 void twin_ride(const twin_road *road, const twin_bike *bike, const twin_rider *rider,
@@ -200,6 +222,7 @@ void twin_ride(const twin_road *road, const twin_bike *bike, const twin_rider *r
     const double end_m = (double)(road->count - 1) * road->spacing_m;
     *totals = nothing;
     self.voltage_v = bike->open_v;
+    if (!(road->stand_s[0] > 0.0)) remember(&self);
     self.speed_ms = fmax(road->speed_ms[0], PUSHED_OFF_MS);
     self.stood_at = SIZE_MAX;
     for (size_t steps = 0; self.distance_m < end_m; steps++) {

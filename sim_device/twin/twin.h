@@ -76,8 +76,9 @@ typedef struct {
     size_t samples;
 } twin_ride_totals;
 
-/* Rides to the end of the road or for `longest_s`. One sample every `sample_steps` control steps
- * goes into `samples` as long as there is room for it. */
+/* Rides to the end of the road or for `longest_s`. Where the road does not begin with a stop, the
+ * law begins with what it would remember of a road like the first five seconds of this one. One
+ * sample every `sample_steps` control steps goes into `samples` as long as there is room for it. */
 void twin_ride(const twin_road *road, const twin_bike *bike, const twin_rider *rider,
                const assist_config *law, double longest_s, size_t sample_steps,
                twin_sample *samples, size_t capacity, twin_ride_totals *totals);

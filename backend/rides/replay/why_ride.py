@@ -19,7 +19,7 @@ from backend.core.energy import DELIVERED, MOTOR_TORQUE
 from backend.core.ride import Ride
 from backend.errors import Conflict, InvalidRequest
 from backend.law import law_defaults
-from backend.rides.replay.service import LIMITS, law_inputs, read_columns, warm_up_row
+from backend.rides.replay.service import LIMITS, law_inputs, read_columns, remembered_rows
 from backend.rides.settings_in_force import ConfigOf
 from backend.store import Store
 from backend.tuning.why import number, why_json
@@ -65,14 +65,16 @@ class WhyRide:
         config = self._recorded_config(reader.ride, t_s)
         period_us = reader.period_us or 0
         row = round(t_s * 1e6 / max(period_us, 1))
-        first = min(warm_up_row(reader.ride, row), reader.row_count)
-        columns = read_columns(reader, first, min(row + 1, reader.row_count))
-        if row >= reader.row_count or not np.isfinite(columns["speed_kmh"][-1]):
+        rows = remembered_rows(reader, row, row + 1)
+        first = min(int(rows.min()), reader.row_count)
+        columns = read_columns(reader, first, min(int(rows.max()) + 1, reader.row_count))
+        if row >= reader.row_count or not np.isfinite(columns["speed_kmh"][row - first]):
             raise InvalidRequest(
                 f"Ride {ride_id} has no sample at {t_s:g} s: choose a moment that was recorded.",
                 code="no_sample",
             )
         step_s = period_us / 1e6
+        columns = {name: values[rows - first] for name, values in columns.items()}
         readings = law_inputs(columns)
         delivered = self._delivered_nm(reader.ride, columns)
         why = law.why(config, readings, step_s=step_s, delivered_nm=delivered)

@@ -110,6 +110,19 @@ def test_the_open_loop_tells_of_the_record_what_the_closed_one_tells(store: Stor
         assert opened[name]["recorded"] == pytest.approx(closed[name]["recorded"], rel=2e-3)
 
 
+@pytest.mark.parametrize("lost_s", [(0.0, 0.3), (10.0, 10.3), (60.0, 60.3)])
+def test_rows_that_were_lost_are_no_stop(store: Store, lost_s: tuple[float, float]) -> None:
+    first, end = (round(t_s * 1e6 / PERIOD_US) for t_s in lost_s)
+    columns = {name: values.copy() for name, values in sport().items()}
+    for values in columns.values():
+        values[first:end] = np.nan
+
+    trust = again(store, columns)["trust"]
+
+    assert abs(trust["no_change_error_pct"]) < 1.0
+    assert abs(trust["no_change_time_error_pct"]) < 3.0
+
+
 def test_less_help_takes_less_work_and_longer(store: Store) -> None:
     closed = again(store, sport(), assist_modes=modes_with_ratio(0.4))
 

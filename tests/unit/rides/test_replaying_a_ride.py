@@ -66,6 +66,23 @@ def motor_nm(answer: dict[str, Any]) -> Values:
     return np.asarray(motor["max"], np.float64)
 
 
+def test_a_ride_that_begins_on_the_way_is_assisted_from_its_first_row(store: Store) -> None:
+    columns = pushing()
+    columns["speed_kmh"][:600] = columns["cadence_rpm"][:600] = 0.0
+    columns["motor_speed_rpm"][:600] = columns["rider_torque_raw"][:600] = 0.0
+
+    on_the_way, from_a_stand = (
+        motor_nm(replayed(store, pushing())),
+        motor_nm(replayed(store, columns)),
+    )
+
+    # As much as the rider's 30 Nm, through a gear of 40.34 to 1.
+    assert on_the_way[:50] == pytest.approx(30.0 / 40.34, rel=1e-3)
+    assert not from_a_stand[:600].any()
+    assert from_a_stand[610] < 0.5 * on_the_way[0]
+    assert from_a_stand[-1] == pytest.approx(on_the_way[0], rel=1e-3)
+
+
 @pytest.mark.parametrize(
     ("channel", "value"),
     [

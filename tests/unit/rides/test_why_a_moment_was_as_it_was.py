@@ -125,6 +125,16 @@ def test_the_law_starts_behind_a_break_and_ten_minutes_before_at_most(store: Sto
     assert warm_up_row(ride, 100_000) == 100_000 - WARM_UP_S * 100
 
 
+def test_a_ride_that_begins_on_the_way_is_explained_from_its_first_moment(store: Store) -> None:
+    ride_id = kept(store)
+    first, later = (WhyRide(store, config_of)(ride_id, t_s) for t_s in (0.0, 8.0))
+
+    # Nothing changes on this ride.
+    assert first["warmed_up_s"] == 0.0
+    assert first["commanded_nm"] == pytest.approx(later["commanded_nm"], rel=1e-3)
+    assert first["commanded_nm"] > 20.0
+
+
 def fields(ride: Ride) -> dict[str, Any]:
     return {name: getattr(ride, name) for name in Ride.__dataclass_fields__}
 
