@@ -36,6 +36,7 @@ from backend.core.device_metadata import (
 )
 from backend.formats.cells import Growing, as_written, iso_moment, number, step_of, unix_seconds
 from backend.formats.columns import FIT_FIELDS, FieldRule, rides_of_columns
+from backend.formats.local_times import times_in_zone
 from backend.formats.mahle.walk import TIME
 from backend.formats.outcome import ImportedRide
 from backend.formats.own_channels import Column, rule
@@ -150,8 +151,7 @@ class Document:
 
     def _times(self, zone: tzinfo | None) -> Values:
         """Unix time of every point (n,), NaN for none. zone: of those that name none."""
-        aware = (m if m is None or m.tzinfo else m.replace(tzinfo=zone) for m in self._moments)
-        return np.array([unix_seconds(moment) for moment in aware], np.float64)
+        return times_in_zone(self._moments, zone)
 
     def rides(self, times: Values, taken_as: Mapping[str, str]) -> list[ImportedRide]:
         """Its rides: one, unless it breaks off for hours."""

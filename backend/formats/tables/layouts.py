@@ -7,22 +7,29 @@ Facts on head units after GoldenCheetah's reader; Cycle Analyst after Grin's man
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from itertools import zip_longest
 
 from backend.formats.cells import number
-from backend.formats.tables.measures import plain_unit, split_unit, words
+from backend.formats.tables.measures import UNITS, measure_of, plain_unit, split_unit, words
 from backend.formats.tables.text import cells_of, decoded
 
-# A moment, of which the first that a table has counts; then seconds since something.
-MOMENTS = ("time utc", "timestamp", "datetime", "date time", "utc time", "local time", "time")
+# Names of columns of moments, days or times of day, the first that fits counts; then of seconds
+# since something. What stands in them decides which of these they are.
+TIMES = (
+    "time utc", "timestamp", "datetime", "date time", "utc time", "local time", "zeitstempel",
+    "datum zeit", "datum uhrzeit", "date heure", "fecha hora", "data ora", "datum tijd", "gps time",
+    "time", "zeit", "uhrzeit", "time of day", "heure", "hora", "ora", "tijd", "时间",
+    "date", "datum", "day", "fecha", "data", "jour", "日期",
+)  # fmt: skip
 SINCE: dict[str, float] = {
     **dict.fromkeys(("t s", "secs", "seconds", "sec", "elapsed s", "elapsed seconds"), 1.0),
-    **dict.fromkeys(("zeit", "time s"), 1.0),
+    **dict.fromkeys(("zeit", "time s", "sekunden", "secondes", "segundos", "duration"), 1.0),
     **dict.fromkeys(("minutes", "min", "elapsed minutes"), 60.0),
     **dict.fromkeys(("ms", "milliseconds", "ms today"), 0.001),
 }
 TIME_UNITS = {"s": 1.0, "sec": 1.0, "seconds": 1.0, "min": 60.0, "minutes": 60.0, "ms": 0.001}
-PREAMBLE_ROWS_MAX = 8
+PREAMBLE_ROWS_MAX = 24
 CA_HEADER = tuple("Ah V A S D Deg RPM HW Nm ThI ThO AuxA AuxD Flgs".split())  # noqa: SIM905
 CA_HEADER_3_0 = (*CA_HEADER[:11], "Acc", "Flgs")
 
@@ -35,7 +42,8 @@ class Layout:
     units: by column name, of `words`, what the format defines: channel and unit; a unit of None is
     asked among choices. own: channels of the format that no other file has. start: the moment the
     file begins with, "" for none. row_s: seconds of a row, None where a column tells times.
-    pause: the column of seconds that the clock stood after a row. satellite_altitude: without a
+    pause: the column of seconds that the clock stood after a row. preamble: rows above the
+    header. satellite_altitude: without a
     position there is no altitude.
     """
 
@@ -48,6 +56,7 @@ class Layout:
     row_s: float | None = None
     rows_are_time: bool = False
     pause: str = ""
+    preamble: int = 0
     satellite_altitude: bool = False
 
 
@@ -99,6 +108,89 @@ VESC = {
 }
 
 
+STAGES = {
+    "miles": ("distance_m", "mi"),
+    "km": ("distance_m", "km"),
+    "mph": ("speed_kmh", "mph"),
+    "kmh": ("speed_kmh", "km/h"),
+    "kph": ("speed_kmh", "km/h"),
+    "hr": ("heart_rate_bpm", "bpm"),
+    "rpm": ("cadence_rpm", "rpm"),
+}
+PHASERUNNER = {
+    "amps": ("battery_current_a", "A"),
+    "voltage": ("battery_voltage_v", "V"),
+    "human watts": ("rider_power_w", "W"),
+    "human power": ("rider_torque_nm", "Nm"),
+    "motor temperature": ("motor_temperature_degc", "degC"),
+    "controller temperature": ("controller_temperature_degc", "degC"),
+    "motor current": ("motor_current_a", "A"),
+}
+FLOAT_CONTROL = {
+    "voltage": ("battery_voltage_v", "V"),
+    "i battery": ("battery_current_a", "A"),
+    "i motor": ("motor_current_a", "A"),
+    "t mot": ("motor_temperature_degc", "degC"),
+    "t mosfet": ("controller_temperature_degc", "degC"),
+    "gps lat": ("latitude_deg", "deg"),
+    "gps long": ("longitude_deg", "deg"),
+}
+WHEEL_LOG = {
+    "speed": ("speed_kmh", "km/h"),
+    "distance": ("distance_m", "m"),
+    "voltage": ("battery_voltage_v", "V"),
+    "current": ("battery_current_a", "A"),
+    "phase current": ("motor_current_a", "A"),
+    "power": ("battery_power_w", "W"),
+    "battery level": ("battery_soc_pct", "%"),
+    "system temp": ("controller_temperature_degc", "degC"),
+    "gps alt": ("altitude_m", "m"),
+}
+EUC_WORLD = {
+    "speed": ("speed_kmh", "km/h"),
+    "distance": ("distance_m", "km"),
+    "voltage": ("battery_voltage_v", "V"),
+    "current": ("battery_current_a", "A"),
+    "current phase": ("motor_current_a", "A"),
+    "power": ("battery_power_w", "W"),
+    "battery": ("battery_soc_pct", "%"),
+    "temp": ("controller_temperature_degc", "degC"),
+    "temp motor": ("motor_temperature_degc", "degC"),
+    "gps lat": ("latitude_deg", "deg"),
+    "gps lon": ("longitude_deg", "deg"),
+    "gps alt": ("altitude_m", "m"),
+    "hr": ("heart_rate_bpm", "bpm"),
+}
+FLOATY = {
+    "speed": ("speed_kmh", "km/h"),
+    "batteryvolts": ("battery_voltage_v", "V"),
+    "batterycurrent": ("battery_current_a", "A"),
+    "batterypercent": ("battery_soc_pct", "1"),
+    "motorcurrent": ("motor_current_a", "A"),
+    "motortemp": ("motor_temperature_degc", "degC"),
+    "controllertemp": ("controller_temperature_degc", "degC"),
+    "tripdistance": ("distance_m", None),
+    "altitude": ("altitude_m", "m"),
+}
+# A header that has all of these is of the kind.
+BY_HEADER: tuple[tuple[frozenset[str], str, Mapping[str, tuple[str, str | None]]], ...] = (
+    (
+        frozenset({"secs", "cad", "hr", "km", "kph", "watts"}),
+        "a GoldenCheetah table",
+        GOLDEN_CHEETAH,
+    ),
+    (frozenset({"amp hours", "amps", "human watts"}), "a Cycle Analyst log", PHASERUNNER),
+    (frozenset({"duty", "i battery", "i motor"}), "a Float Control log", FLOAT_CONTROL),
+    (frozenset({"phase current", "totaldistance", "system temp"}), "a WheelLog log", WHEEL_LOG),
+    (
+        frozenset({"duration riding", "current phase", "safety margin"}),
+        "a EUC World log",
+        EUC_WORLD,
+    ),
+    (frozenset({"dutycycle", "batteryvolts", "tripdistance"}), "a Floaty log", FLOATY),
+)
+
+
 def layout_of(rows: Sequence[Sequence[str]]) -> Layout | None:
     """The layout of a table by its first rows; None when it is no table of a ride."""
     first = [words(cell) for cell in rows[0]] if rows else []
@@ -112,8 +204,12 @@ def layout_of(rows: Sequence[Sequence[str]]) -> Layout | None:
         return Layout("an Ergomo table", named(rows[0]), 2, ERGOMO, pause="pause")
     if {"minutes", "torq n m", "watts"} <= set(first):
         return Layout("a PowerTap table", named(rows[0]), 1, POWERTAP)
-    if {"secs", "cad", "hr", "km", "kph", "watts"} <= set(first):
-        return Layout("a GoldenCheetah table", named(rows[0]), 1, GOLDEN_CHEETAH)
+    plain = {words(split_unit(cell)[0]) for cell in rows[0]}
+    for header, kind, units in BY_HEADER:
+        if header <= plain:
+            return Layout(kind, named(rows[0]), 1, units)
+    if first[0] == "stages data" and (table := generic(rows)) is not None:
+        return replace(table, kind="a Stages table", units=STAGES)
     if {"ms today", "input voltage", "current motor"} <= set(first):
         return Layout("a VESC Tool log", named(rows[0]), 1, VESC, satellite_altitude=True)
     return cycle_analyst(rows) or generic(rows)
@@ -172,12 +268,52 @@ def cycle_analyst(rows: Sequence[Sequence[str]]) -> Layout | None:
 
 
 def generic(rows: Sequence[Sequence[str]]) -> Layout | None:
-    """Any table of which a row names a time and at least one more column."""
+    """Any table of which a row names a time and at least one more column.
+
+    Of several such rows the one that names most counts: a table may begin with a table about it.
+    The units may stand in a row of their own below, and a row of sources below that.
+    """
+    found: tuple[int, int, tuple[str, ...]] | None = None
     for place, row in enumerate(rows[:PREAMBLE_ROWS_MAX]):
         names = named(row)
-        if len(names) > 1 and (time_column(names) is not None or since_column(names) is not None):
-            return Layout("a table", names, place + 1)
-    return None
+        if len(names) < 2 or not (time_columns(names) or since_columns(names)):
+            continue
+        known = sum(measure_of(name) is not None for name in names)
+        if found is None or known > found[0]:
+            found = known, place, names
+    if found is None:
+        return None
+    _, place, names = found
+    begins, units = place + 1, row_of_units(rows[place + 1 : place + 2])
+    if units:
+        names = tuple(
+            with_unit(name, unit) for name, unit in zip_longest(names, units, fillvalue="")
+        )
+        begins += 1
+        if not any(is_number(cell) for row in rows[begins : begins + 1] for cell in row):
+            begins += 1
+    return Layout("a table", names, begins, preamble=place)
+
+
+def row_of_units(rows: Sequence[Sequence[str]]) -> tuple[str, ...]:
+    """The cells of a row that holds units and no number; nothing for another row."""
+    for row in rows:
+        cells = tuple(cell.strip() for cell in row)
+        units = sum(plain_unit(cell) in UNITS for cell in cells if not is_number(cell))
+        if units >= 2 and not any(is_number(cell) for cell in cells):
+            return cells
+    return ()
+
+
+def with_unit(name: str, unit: str) -> str:
+    """A name with the unit from the row below, as headers write it."""
+    return f"{name} ({unit})" if unit and plain_unit(unit) in {*UNITS, *TIME_UNITS} else name
+
+
+def is_number(cell: str) -> bool:
+    """Whether a cell is a plain number."""
+    value = number(cell)
+    return value == value
 
 
 def named(row: Sequence[str]) -> tuple[str, ...]:
@@ -192,29 +328,29 @@ def named(row: Sequence[str]) -> tuple[str, ...]:
     return tuple(found_names)
 
 
-def time_column(names: Sequence[str]) -> int | None:
-    """The column of moments, None for none."""
+def time_columns(names: Sequence[str]) -> list[int]:
+    """The columns that are called as a moment, a day or a time of day, the best name first."""
     plain = [words(split_unit(name)[0]) for name in names]
-    return next((plain.index(name) for name in MOMENTS if name in plain), None)
+    return [place for name in TIMES for place, column in enumerate(plain) if column == name]
 
 
-def since_column(names: Sequence[str]) -> tuple[int, float] | None:
-    """The column of a time since something, and the seconds of its unit; None for none."""
+def since_columns(names: Sequence[str]) -> list[tuple[int, float]]:
+    """The columns of a time since something, each with the seconds of its unit."""
+    columns = []
     for place, name in enumerate(names):
         plain, unit = split_unit(name)
         if unit is None and words(name) in SINCE:
-            return place, SINCE[words(name)]
-        if unit is not None and words(plain) in ("time", "elapsed", "elapsed time"):
+            columns.append((place, SINCE[words(name)]))
+        elif unit is not None and words(plain) in ("time", "elapsed", "elapsed time", "zeit"):
             scale = TIME_UNITS.get(plain_unit(unit))
-            if scale is not None:
-                return place, scale
-    return None
+            columns += [(place, scale)] if scale is not None else []
+    return columns
 
 
 def only_times(head: bytes) -> str | None:
     """The name of a table's only column, if that is a time; None for other files."""
     names = named([decoded(head).lstrip("\ufeff").split("\n", 1)[0]])
-    if len(names) != 1 or (time_column(names) is None and since_column(names) is None):
+    if len(names) != 1 or not (time_columns(names) or since_columns(names)):
         return None
     return names[0]
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from backend.core.channels import ChannelSpec
 from backend.core.energy import KMH_PER_MS
 from backend.formats.columns import FIT_FIELDS, FieldRule
+from backend.formats.questions import OfferedChannel
 
 # Unit as files write it, without case and spaces -> its quantity, our word, factor to the
 # channel's unit, and what is added after that.
@@ -40,6 +41,7 @@ UNIT_CHOICES: dict[str, tuple[str, ...]] = {
     "altitude_m": ("m", "ft"),
     "temperature_degc": ("degC", "degF"),
     "motor_temperature_degc": ("degC", "degF"),
+    "controller_temperature_degc": ("degC", "degF"),
     "rider_torque_nm": ("Nm", "ft-lb"),
     "motor_torque_nm": ("Nm", "ft-lb"),
 }
@@ -47,6 +49,7 @@ DEFINED: dict[str, str] = {
     "cadence_rpm": "rpm",
     "rider_power_w": "W",
     "motor_power_w": "W",
+    "battery_power_w": "W",
     "heart_rate_bpm": "bpm",
     "latitude_deg": "deg",
     "longitude_deg": "deg",
@@ -63,35 +66,87 @@ DEFINED: dict[str, str] = {
     "motor_torque_demanded_nm": "Nm",
 }
 # A column's name, lower case with single spaces for all that is no letter -> its channel.
+# In English, German, French, Spanish, Italian, Dutch and Chinese.
 NAMES: dict[str, str] = {
-    **dict.fromkeys(("speed", "enhanced speed", "velocity", "km h", "kph", "mph"), "speed_kmh"),
-    **dict.fromkeys(("cadence", "cad", "rpm", "pedal cadence"), "cadence_rpm"),
-    **dict.fromkeys(("power", "watts", "watt", "rider power", "human power"), "rider_power_w"),
-    **dict.fromkeys(("motor power", "motor watts"), "motor_power_w"),
-    **dict.fromkeys(("rider torque", "human torque", "pedal torque"), "rider_torque_nm"),
-    "motor torque": "motor_torque_nm",
-    "motor torque demanded": "motor_torque_demanded_nm",
-    **dict.fromkeys(("heart rate", "heartrate", "hr", "hrate", "puls"), "heart_rate_bpm"),
-    **dict.fromkeys(("distance", "dist", "km", "miles"), "distance_m"),
-    **dict.fromkeys(
-        ("altitude", "enhanced altitude", "elevation", "ele", "alt", "height"), "altitude_m"
-    ),
-    **dict.fromkeys(("temperature", "temp", "atemp"), "temperature_degc"),
-    "motor temperature": "motor_temperature_degc",
-    **dict.fromkeys(("position lat", "latitude", "lat"), "latitude_deg"),
-    **dict.fromkeys(("position long", "longitude", "lon", "lng", "long"), "longitude_deg"),
-    **dict.fromkeys(("battery voltage", "voltage"), "battery_voltage_v"),
-    "battery current": "battery_current_a",
-    "motor current": "motor_current_a",
-    **dict.fromkeys(("battery level", "battery soc", "ebike battery level"), "battery_soc_pct"),
-    **dict.fromkeys(("grade", "slope", "hill slope"), "grade_pct"),
-    **dict.fromkeys(("ebike assist mode", "assist mode"), "assist_mode"),
-    "ebike assist level percent": "assist_level_pct",
-    "ebike travel range": "range_km",
-    "fuzzy gain": "fuzzy_gain",
+    name: channel
+    for channel, names in {
+        "speed_kmh": "speed, enhanced speed, velocity, km h, kph, mph, geschwindigkeit, vitesse,"
+        " velocidad, velocità, snelheid, 速度",
+        "cadence_rpm": "cadence, cad, rpm, pedal cadence, trittfrequenz, kadenz, cadencia, cadenza,"
+        " cadans, 踏频",
+        "rider_power_w": "power, watts, watt, rider power, human power, human watts, leistung,"
+        " puissance, potencia, potenza, vermogen, 功率",
+        "motor_power_w": "motor power, motor watts",
+        "battery_power_w": "battery power, battery watts",
+        "rider_torque_nm": "rider torque, human torque, pedal torque",
+        "motor_torque_nm": "motor torque",
+        "motor_torque_demanded_nm": "motor torque demanded",
+        "heart_rate_bpm": "heart rate, heartrate, hr, hrate, puls, herzfrequenz,"
+        " fréquence cardiaque, frecuencia cardíaca, frequenza cardiaca, hartslag, 心率",
+        "distance_m": "distance, distances, dist, km, miles, distance traveled, distance travelled,"
+        " strecke, distanz, entfernung, distancia, distanza, afstand, 距离",
+        "altitude_m": "altitude, enhanced altitude, elevation, ele, alt, height, höhe, altitud,"
+        " altitudine, hoogte, 海拔",
+        "temperature_degc": "temperature, temperatures, temp, atemp, temperatur, température,"
+        " temperatura, temperatuur, 温度",
+        "motor_temperature_degc": "motor temperature, motor temp",
+        "controller_temperature_degc": "controller temperature, controller temp",
+        "latitude_deg": "position lat, latitude, lat, gps lat, gnss lat, breitengrad,"
+        " latitud, 纬度",
+        "longitude_deg": "position long, longitude, lon, lng, long, gps long, gps lon, gnss lon,"
+        " längengrad, longitud, 经度",
+        "battery_voltage_v": "battery voltage, voltage, spannung, battery volts, 电压",
+        "battery_current_a": "battery current, amps, battery amps, current, strom, courant,"
+        " corriente, corrente, stroom, 电流",
+        "motor_current_a": "motor current, phase current",
+        "battery_soc_pct": "battery level, battery soc, ebike battery level, akkustand,"
+        " battery percent",
+        "grade_pct": "grade, slope, hill slope, steigung, pente",
+        "assist_mode": "ebike assist mode, assist mode",
+        "assist_level_pct": "ebike assist level percent",
+        "range_km": "ebike travel range",
+        "fuzzy_gain": "fuzzy gain",
+    }.items()
+    for name in names.split(", ")
 }
+# Names that mean something by the quantity of their unit alone.
+BY_QUANTITY: dict[str, dict[str, str]] = {
+    "battery": {
+        "share": "battery_soc_pct",
+        "voltage": "battery_voltage_v",
+        "current": "battery_current_a",
+        "power": "battery_power_w",
+    },
+    "motor": {
+        "power": "motor_power_w",
+        "torque": "motor_torque_nm",
+        "current": "motor_current_a",
+        "temperature": "motor_temperature_degc",
+    },
+}
+BY_QUANTITY |= {"akku": BY_QUANTITY["battery"], "电池": BY_QUANTITY["battery"]}
+# Names that do not state whose power it is.
+ANY_POWER = frozenset(
+    ("power", "watts", "watt", "leistung", "puissance", "potencia", "potenza", "vermogen", "功率")
+)
+POWER_CHANNELS = ("rider_power_w", "motor_power_w", "battery_power_w")
+# What tables have and FIT files do not; of what charges the battery the power is below 0.
+TABLE_FIELDS: tuple[FieldRule, ...] = (
+    FieldRule(ChannelSpec("battery_power_w", "W", 1.0), ("battery_power",), -30_000, 30_000),
+    FieldRule(
+        ChannelSpec("controller_temperature_degc", "degC", 0.01),
+        ("controller_temperature",),
+        -60,
+        320,
+    ),
+)
 IN_BRACKETS = re.compile(r"^(.*?)[(\[]\s*([^()\[\]]*?)\s*[)\]]\s*$")
-RULES: dict[str, FieldRule] = {rule.channel.name: rule for rule in FIT_FIELDS}
+RULES: dict[str, FieldRule] = {rule.channel.name: rule for rule in (*FIT_FIELDS, *TABLE_FIELDS)}
+OFFERED = tuple(
+    OfferedChannel(name, rule.channel.unit, UNIT_CHOICES.get(name, ()))
+    for name, rule in RULES.items()
+)
+"""What any column may be by its owner's word."""
 
 # Suffix of our channel names -> unit and the scale that holds what a bike has of it.
 OWN_UNITS: dict[str, tuple[str, float]] = {
@@ -151,7 +206,13 @@ def measure_of(header: str) -> Measure | None:
     # A unit in a name can be all that it says: `Km/h` of a head unit is its speed.
     if unit is None and words(name) in ("km h", "kph", "mph", "km", "miles", "watts"):
         unit = name.strip()
+    quantity = UNITS[plain_unit(unit)][0] if unit and plain_unit(unit) in UNITS else None
+    channel = BY_QUANTITY.get(words(name), {}).get(quantity or "", channel)
     if channel is None or channel not in RULES:
+        return None
+    defined = UNITS.get(plain_unit(RULES[channel].channel.unit))
+    if quantity is not None and defined is not None and quantity != defined[0]:
+        # Of another quantity: `Power (%)` is no power.
         return None
     return measure_in(channel, unit)
 
@@ -173,6 +234,12 @@ def split_unit(header: str) -> tuple[str, str | None]:
     return (match.group(1), match.group(2)) if match else (header, None)
 
 
+def named_unit(header: str, of_cells: str | None) -> str | None:
+    """The unit that a header or else its cells name, in our word; None for none that we know."""
+    rule = UNITS.get(plain_unit(split_unit(header)[1] or of_cells or ""))
+    return rule[1] if rule else None
+
+
 def plain_unit(unit: str) -> str:
     """A unit without case and spaces, as `UNITS` has it."""
     return unit.strip().lower().replace(" ", "")
@@ -180,7 +247,7 @@ def plain_unit(unit: str) -> str:
 
 def words(name: str) -> str:
     """A name in lower case, single spaces for all that is no letter or digit."""
-    return re.sub(r"[^0-9a-zà-ÿ]+", " ", name.strip().strip('"').lower()).strip()
+    return re.sub(r"[\W_]+", " ", name.strip().strip('"').lower()).strip()
 
 
 def own_rule(name: str) -> FieldRule | None:

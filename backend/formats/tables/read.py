@@ -11,7 +11,8 @@ import numpy as np
 
 from backend.core.calendar import zone_of
 from backend.core.channels import ChannelSpec, Values
-from backend.formats.cells import COLUMNS_MAX, as_written, number, step_of
+from backend.core.intake import Intake
+from backend.formats.cells import COLUMNS_MAX, as_written, step_of
 from backend.formats.columns import LATITUDE, LONGITUDE, FieldRule, rides_of_columns
 from backend.formats.outcome import (
     COMPLETE,
@@ -22,14 +23,47 @@ from backend.formats.outcome import (
     rejected,
 )
 from backend.formats.own_channels import Column, rules_of
-from backend.formats.questions import TableAnswer, TableColumn, TableQuestion, lacking
-from backend.formats.tables.layouts import Layout, layout_of, since_column, time_column
-from backend.formats.tables.measures import RULES, Measure, measure_in, measure_of, own_rule, words
+from backend.formats.questions import (
+    LEFT_OUT,
+    TIME,
+    TableAnswer,
+    TableColumn,
+    TableQuestion,
+    lacking,
+)
+from backend.formats.tables.layouts import Layout, layout_of
+from backend.formats.tables.measures import (
+    ANY_POWER,
+    POWER_CHANNELS,
+    RULES,
+    Measure,
+    measure_in,
+    measure_of,
+    named_unit,
+    own_rule,
+    split_unit,
+    words,
+)
+from backend.formats.tables.numbers import Numbers, numbers_of, table_mark
 from backend.formats.tables.text import cells_of, decoded
-from backend.formats.tables.times import Times, times_of
+from backend.formats.tables.times import (
+    Times,
+    columns_of_time,
+    start_in_preamble,
+    texts,
+    times_of,
+)
 
 ROWS_MAX = 2_000_000
 SAMPLES = 5
+ROWS_OF_MARK = 200
+"""Rows that show a table's decimal mark."""
+ELECTRIC = frozenset(
+    {"battery_voltage_v", "battery_current_a", "motor_current_a", "battery_soc_pct"}
+)
+MOTOR_TEMPERATURES = ("motor_temperature_degc", "controller_temperature_degc")
+# A logger's power is of readings that it averages otherwise than its volts and amperes.
+PRODUCT_SHARE, PRODUCT_W_MIN = 0.1, 10.0
 # Rates a Cycle Analyst writes at, and how near its odometer must come to one.
 LOGGER_RATES_HZ, NEAR = (1.0, 5.0, 10.0), 0.15
 # The rate is looked at over so many rows, if at least so far was ridden in them, in the log's unit.
@@ -57,106 +91,160 @@ def read_table(data: bytes, name: str = "", answer: TableAnswer | None = None) -
     if body and len(body[-1]) < len(layout.names) and not text.endswith(("\n", "\r")):
         # Where a file was cut, it was cut within a number.
         body[-1][-1] = ""
-    return Table(layout, body, cells.decimal_comma, name).read(answer)
+    if layout.preamble and not layout.start:
+        layout = replace(layout, start=start_in_preamble(cells.rows[: layout.preamble]))
+    return Table(layout, body, cells.separator, name, answer or TableAnswer()).read()
 
 
 class Table:
-    """One table, its columns as they are understood."""
+    """One table, its columns as they are understood. answer: what its owner stated of it."""
 
-    def __init__(self, layout: Layout, body: list[list[str]], comma: bool, name: str) -> None:
-        self._layout, self._body, self._comma, self._name = layout, body, comma, name
-        since = since_column(layout.names)
-        at = time_column(layout.names)
-        self._times = {place for place in (at, since[0] if since else None) if place is not None}
+    def __init__(
+        self,
+        layout: Layout,
+        body: list[list[str]],
+        separator: str,
+        name: str,
+        answer: TableAnswer,
+    ) -> None:
+        self._layout, self._body, self._name, self._answer = layout, body, name, answer
+        self._time = columns_of_time(layout, body)
+        self._numbers = self._read_numbers(separator)
         self._measures = {
             place: measure
-            for place, column_name in enumerate(layout.names[:COLUMNS_MAX])
-            if place not in self._times and (measure := measured(layout, column_name)) is not None
+            for place in self._numbers
+            if (measure := self._measure(layout.names[place], self._numbers[place])) is not None
         }
+        self._powers = self._open_powers()
 
-    def read(self, answer: TableAnswer | None) -> Outcome:
-        """Rides, or what must be said before."""
-        names = [
-            column_names
-            for place, column_names in enumerate(self._layout.names)
-            if place not in self._times
-        ]
-        columns = self._columns()
+    def read(self) -> Outcome:
+        """Rides, or what must be stated before."""
+        layout, answer = self._layout, self._answer
+        columns = {
+            place: one.values
+            for place, one in self._numbers.items()
+            if np.isfinite(one.values).any()
+        }
         if not columns:
-            column_names = ", ".join(names[:12])
-            return rejected(
-                "no_records", f"No column of {column_names} is a known channel or a number."
-            )
-        zone = zone_of(answer.time_zone) if answer and answer.time_zone else None
-        layout = self._layout
+            times_apart = self._time.places
+            names = [name for at, name in enumerate(layout.names) if at not in times_apart]
+            sentence = f"No column of {', '.join(names[:12])} is a known channel or a number."
+            return rejected("no_records", sentence)
+        zone = zone_of(answer.time_zone) if answer.time_zone else None
         if layout.rows_are_time and layout.row_s is None:
-            rows_per_second = answer.rows_per_second if answer else None
-            layout = replace(layout, row_s=row_spacing(layout, columns, rows_per_second))
-        times = times_of(layout, self._body, self._name, zone)
+            layout = replace(layout, row_s=row_spacing(layout, columns, answer.rows_per_second))
+        times = times_of(layout, self._body, self._time, self._name, zone, answer.date_order)
         question = self._question(times, layout)
         if missing := lacking(question, answer):
             kind = f"{layout.kind[0].upper()}{layout.kind[1:]}"
             detail = f"{kind} that does not say: {', '.join(missing)}. Say it once, and every file "
             detail += "with this header is read."
             return replace(rejected(NEEDS_MAPPING, detail), question=question)
-        return self._outcome(times, layout, columns, answer or TableAnswer(), question)
+        return self._outcome(times, layout, columns, question)
 
-    def _columns(self) -> dict[int, Values]:
-        """The numbers of every column that has any, by place."""
-        columns = {}
-        for place, _ in enumerate(self._layout.names[:COLUMNS_MAX]):
-            if place in self._times:
+    def _read_numbers(self, separator: str) -> dict[int, Numbers]:
+        """Every column that is no time, by place."""
+        places = [
+            place
+            for place in range(min(len(self._layout.names), COLUMNS_MAX))
+            if place not in self._time.places
+        ]
+        looked = (
+            row[place] for row in self._body[:ROWS_OF_MARK] for place in places if place < len(row)
+        )
+        mark = table_mark(looked, separator)
+        return {place: numbers_of(texts(self._body, place), mark) for place in places}
+
+    def _measure(self, name: str, numbers: Numbers) -> Measure | None:
+        """What a column is: as its owner stated, by the layout's format, else by its header."""
+        stated = self._answer.channels.get(name)
+        if stated is not None:
+            _, unit = split_unit(name)
+            return measure_in(stated, unit or numbers.unit) if stated in RULES else None
+        header = name
+        if numbers.unit is not None and split_unit(name)[1] is None:
+            header = f"{name} ({numbers.unit})"
+        return measured(self._layout, name, header)
+
+    def _open_powers(self) -> set[int]:
+        """Columns whose power may be anybody's; those that the columns beside settle are settled.
+
+        Volts times amperes is the battery's power. Beside a cadence it is the rider's, as without
+        any sign of a motor.
+        """
+        by_channel = {m.rule.channel.name: place for place, m in reversed(self._measures.items())}
+        open_ones = set()
+        for place, measure in self._measures.items():
+            name = self._layout.names[place]
+            if (
+                measure.rule.channel.name != "rider_power_w"
+                or words(split_unit(name)[0]) not in ANY_POWER
+                or words(name) in self._layout.units
+                or name in self._answer.channels
+            ):
                 continue
-            cells = (row[place] if place < len(row) else "" for row in self._body)
-            values = np.array([number(cell, self._comma) for cell in cells], np.float64)
-            if np.isfinite(values).any():
-                columns[place] = values
-        return columns
+            volts, amps = (by_channel.get(c) for c in ("battery_voltage_v", "battery_current_a"))
+            if (
+                volts is not None
+                and amps is not None
+                and is_product(
+                    self._numbers[place].values,
+                    self._numbers[volts].values,
+                    self._numbers[amps].values,
+                )
+            ):
+                self._measures[place] = measure_in("battery_power_w", measure.unit)
+            elif ELECTRIC & by_channel.keys() and "cadence_rpm" not in by_channel:
+                open_ones.add(place)
+        return open_ones
 
-    def _unread(self, columns: Mapping[int, Values]) -> dict[str, int]:
+    def _unread(self) -> dict[str, int]:
         """Cells that are there and no number, by column."""
-        unread = {}
-        for place, name in enumerate(self._layout.names):
-            if place in self._times:
-                continue
-            values = columns.get(place)
-            filled = sum(1 for row in self._body if place < len(row) and row[place].strip())
-            numeric = 0 if values is None else int(np.isfinite(values).sum())
-            if filled > numeric:
-                unread[name] = filled - numeric
-        return unread
+        return {
+            self._layout.names[place]: one.unread
+            for place, one in self._numbers.items()
+            if one.unread
+        }
 
     def _question(self, times: Times, layout: Layout) -> TableQuestion:
         header = "\x1f".join([layout.kind, *(words(name) for name in layout.names)])
-        columns = []
-        for place, name in enumerate(layout.names):
-            measure = self._measures.get(place)
-            samples = tuple(row[place][:40] for row in self._body[:SAMPLES] if place < len(row))
-            if place in self._times:
-                columns.append(TableColumn(name, "time", samples=samples))
-                continue
-            if measure is None:
-                columns.append(TableColumn(name, samples=samples))
-                continue
-            channel = measure.rule.channel.name
-            choices = measure.choices if measure.unit is None else ()
-            columns.append(TableColumn(name, channel, measure.unit, choices, samples))
+        columns = [self._column(place, name) for place, name in enumerate(layout.names)]
         return TableQuestion(
             hashlib.sha256(header.encode()).hexdigest(),
             layout.kind,
             times.naive,
             layout.rows_are_time and layout.row_s is None,
+            times.order_open,
             tuple(columns),
         )
+
+    def _column(self, place: int, name: str) -> TableColumn:
+        samples = tuple(row[place][:40] for row in self._body[:SAMPLES] if place < len(row))
+        if place in self._time.places:
+            return TableColumn(name, TIME, samples=samples)
+        numbers, measure = self._numbers.get(place), self._measures.get(place)
+        if numbers is None:
+            return TableColumn(name, samples=samples)
+        if measure is None:
+            unit = named_unit(name, numbers.unit)
+            return TableColumn(name, unit=unit, samples=samples, unread=numbers.unread)
+        channel = measure.rule.channel.name
+        channels: tuple[str, ...] = ()
+        if place in self._powers:
+            channels = (*POWER_CHANNELS, LEFT_OUT)
+        elif numbers.mostly_unread and name not in self._answer.channels:
+            channels, samples = (channel, LEFT_OUT), numbers.samples
+        choices = measure.choices if measure.unit is None else ()
+        return TableColumn(name, channel, measure.unit, choices, samples, channels, numbers.unread)
 
     def _outcome(
         self,
         times: Times,
         layout: Layout,
         columns: dict[int, Values],
-        answer: TableAnswer,
         question: TableQuestion,
     ) -> Outcome:
+        answer = self._answer
         read, rules = self._ruled(columns, answer)
         taken_as = {
             column.name: answer.units[column.name] for column in question.columns if column.units
@@ -167,7 +255,13 @@ class Table:
             taken_as["rows_per_second"] = f"{1.0 / layout.row_s:g}"
         if times.start_of is not None:
             taken_as["start"] = times.start_of
-        unread = self._unread(columns)
+        if question.date_order and answer.date_order:
+            taken_as["date_order"] = answer.date_order
+        for name, channel in answer.channels.items():
+            if name in layout.names:
+                unit = answer.units.get(name)
+                taken_as[name] = f"{channel}, {unit}" if channel and unit else channel or "left out"
+        unread = self._unread()
         rides: list[ImportedRide] = []
         for rows in parts_of(layout, columns, len(self._body)):
             own = {name: values[rows] for name, values in read.items()}
@@ -177,10 +271,13 @@ class Table:
             sentence = f"None of the {len(self._body)} rows has a believable time and a value."
             return rejected("no_valid_time", sentence)
         read_rides = tuple(
-            replace(ride, intake=replace(ride.intake, taken_as=taken_as)) if ride.intake else ride
+            replace(ride, intake=with_table(ride.intake, taken_as, times)) if ride.intake else ride
             for ride in rides
         )
-        short = sum(len(row) < len(layout.names) for row in self._body)
+        # A short row without a time is a note between the rows, as a sum of each lap.
+        timed = np.isfinite(times.time_s)
+        lengths = np.array([len(row) for row in self._body])
+        short = int(np.sum(timed & (lengths < len(layout.names))))
         if short:
             row_count = sum(len(ride.rows.times_us) for ride in read_rides)
             share = 1.0 - short / max(len(self._body), 1)
@@ -197,11 +294,15 @@ class Table:
         read: dict[str, Values] = {}
         rules: dict[str, FieldRule] = {}
         others: dict[str, Column] = {}
-        for place, values in columns.items():
-            column_name = self._layout.names[place]
+        names = self._layout.names
+        stated_first = sorted(columns, key=lambda place: not answer.channels.get(names[place]))
+        for place in stated_first:
+            values, column_name = columns[place], names[place]
             measure = self._measures.get(place)
             channel = measure.rule.channel.name if measure else ""
-            if measure is None or channel in rules:
+            # A controller without the sensor writes zeros.
+            is_absent = channel in MOTOR_TEMPERATURES and not np.nan_to_num(values).any()
+            if measure is None or channel in rules or is_absent:
                 others[own_name(column_name, others)] = Column(values, "", step_of(values))
                 continue
             unit = measure.unit if measure.unit is not None else answer.units[column_name]
@@ -222,11 +323,29 @@ class Table:
         return read, tuple(rules.values())
 
 
-def measured(layout: Layout, column_name: str) -> Measure | None:
+def with_table(intake: Intake, taken_as: Mapping[str, str], times: Times) -> Intake:
+    """An intake with what is known of the whole table."""
+    restarts = dict(intake.restarts) | ({"time": times.restarts} if times.restarts else {})
+    return replace(intake, taken_as=taken_as, restarts=restarts)
+
+
+def is_product(power: Values, volts: Values, amps: Values) -> bool:
+    """Whether a power (n,) is that of a voltage and a current, rounded or not."""
+    product = volts * amps
+    valid = np.isfinite(power) & np.isfinite(product) & (np.abs(product) > PRODUCT_W_MIN)
+    if not valid.any():
+        return False
+    off = np.abs(power[valid] - product[valid])
+    return bool(np.mean(off <= PRODUCT_SHARE * np.abs(product[valid]) + 1.0) >= 0.9)
+
+
+def measured(layout: Layout, column_name: str, header: str) -> Measure | None:
     """What a column is: by the layout's format, else by its own header."""
-    given_unit = layout.units.get(words(column_name))
+    given_unit = layout.units.get(words(column_name)) or layout.units.get(
+        words(split_unit(column_name)[0])
+    )
     if given_unit is None:
-        return measure_of(column_name)
+        return measure_of(header)
     channel, unit = given_unit
     choices = layout.choices.get(words(column_name), ())
     if channel not in RULES:

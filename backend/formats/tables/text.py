@@ -5,23 +5,24 @@ from __future__ import annotations
 import csv
 import io
 import re
+from collections import Counter
 from dataclasses import dataclass
 
 MARKS = ((b"\xef\xbb\xbf", "utf-8-sig"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"))
-# Where two occur alike, a comma is in the numbers.
-SEPARATORS = ";\t,"
-# Lines whose cells decide separator and decimal comma.
-LOOKED_AT = 40
-COMMA_NUMBER = re.compile(r"\s*[+-]?\d+,\d+\s*")
-POINT_NUMBER = re.compile(r"\s*[+-]?\d+\.\d+\s*")
+# Where two divide the lines alike, the first: a comma can be in the numbers.
+SEPARATORS = ";\t,|"
+STATED = re.compile(r"\s*sep=(.)\s*\r?\n", re.IGNORECASE)
+QUOTED = re.compile(r'"[^"]*"')
+# Lines, from all over the file, that decide about the separator.
+LINES_LOOKED_AT = 400
 
 
 @dataclass(frozen=True)
 class Cells:
-    """Rows of cells, and whether a comma is the decimal point."""
+    """Rows of cells, and the mark between them."""
 
     rows: list[list[str]]
-    decimal_comma: bool
+    separator: str
 
 
 def decoded(data: bytes) -> str:
@@ -40,10 +41,25 @@ def decoded(data: bytes) -> str:
 
 def cells_of(text: str) -> Cells:
     """Every row. Raises csv.Error for what cannot be a table."""
-    head = next((line for line in text[:8192].splitlines() if line.strip()), "")
-    separator = max(SEPARATORS, key=head.count)
+    stated = STATED.match(text)
+    if stated is not None:
+        text = text[stated.end() :]
+    separator = stated.group(1) if stated is not None else separator_of(text)
     rows = list(csv.reader(io.StringIO(text, newline=""), delimiter=separator))
-    looked = [cell for row in rows[:LOOKED_AT] for cell in row]
-    commas = sum(1 for cell in looked if COMMA_NUMBER.fullmatch(cell))
-    points = sum(1 for cell in looked if POINT_NUMBER.fullmatch(cell))
-    return Cells(rows, separator != "," and commas > points)
+    return Cells(rows, separator)
+
+
+def separator_of(text: str) -> str:
+    """The mark that divides most lines into as many cells.
+
+    Above the header there may be lines that have none, or others, of it.
+    """
+    lines = [QUOTED.sub("", line) for line in text.splitlines() if line.strip()]
+    looked = lines[:: max(1, len(lines) // LINES_LOOKED_AT)]
+
+    def agreeing(mark: str) -> int:
+        counts = Counter(line.count(mark) for line in looked)
+        counts.pop(0, None)
+        return max(counts.values(), default=0)
+
+    return max(SEPARATORS, key=agreeing)
