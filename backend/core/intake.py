@@ -32,10 +32,15 @@ class Intake:
     rows_dropped: Mapping[str, int] = field(default_factory=dict)
     """By reason: no_time, clock_not_set, clock_jumped, no_value."""
     values_dropped: Mapping[str, int] = field(default_factory=dict)
-    """By channel: what no bike can do, and single samples far from both neighbours."""
+    """By channel: what no bike can do, single samples far from both neighbours, positions that
+    nobody could have reached."""
+    restarts: Mapping[str, int] = field(default_factory=dict)
+    """By channel, or `time`: how often a count began anew; it goes on where it was."""
+    turned: tuple[str, ...] = ()
+    """Channels whose sign was turned: a controller mounted the other way round."""
     fields_unread: Mapping[str, int] = field(default_factory=dict)
     """By name, in how many rows: text, bytes and lists of numbers."""
     taken_as: Mapping[str, str] = field(default_factory=dict)
-    """What the file does not say, and what it was taken as: `time_zone`, `rows_per_second`, a
-    column's unit. `start`: where its date is from. `clock`: the zone that its two clocks, one of
-    UTC, are apart."""
+    """What the file does not say, and what it was taken as: `time_zone`, `rows_per_second`,
+    `date_order`, a column's unit, its channel or `left out`. `start`: where its date is from.
+    `clock`: the zone that its two clocks, one of UTC, are apart."""

@@ -10,6 +10,11 @@ EARTH_M = 6_371_008.8
 """Mean radius of the ellipsoid of WGS 84, (2a + b) / 3 (Moritz 2000, "Geodetic Reference System
 1980")."""
 
+REACH_MS = 33.0
+"""Faster no bike is ridden for long: the limit of speeds in `formats.columns`, 118 km/h."""
+REACH_M = 60.0
+"""So far a receiver's position jumps between houses or trees without being wrong."""
+
 
 def great_circle_m(
     latitude_deg: float | Values,

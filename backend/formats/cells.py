@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from array import array
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -17,13 +18,12 @@ NUMBER_CHARACTERS_MAX = 40
 # Digits behind the point that are looked for: 1e-7 degrees are a centimetre.
 DECIMALS_MAX = 7
 COLUMNS_MAX = 200
+DECIMAL_COMMA = re.compile(r"[+-]?\d+,\d+")
 
 
-def number(cell: str, decimal_comma: bool = False) -> float:
+def number(cell: str) -> float:
     """A cell as a number, NaN when it is none."""
     text = cell.strip()
-    if decimal_comma:
-        text = text.replace(",", ".")
     # Python's own spelling of numbers is wider than what files mean by one.
     if len(text) >= NUMBER_CHARACTERS_MAX or "_" in text:
         return np.nan
@@ -65,6 +65,9 @@ class Growing:
         """One row of cells by name."""
         for name, cell in cells.items():
             value = number(cell)
+            if np.isnan(value) and DECIMAL_COMMA.fullmatch(cell.strip()):
+                # Neither GPX nor TCX has marks of thousands: a comma is the decimal one.
+                value = number(cell.replace(",", "."))
             if np.isnan(value):
                 if cell.strip():
                     self.unread[name] = self.unread.get(name, 0) + 1

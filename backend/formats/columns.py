@@ -6,7 +6,10 @@
   after the other. Rows of one time that differ are samples of their own, and stand evenly in it.
 - Missing is missing: a maker's "no value" number (65535, 255) never becomes a value, nor does what
   no bike can do, nor a single sample far from both its neighbours (one flipped bit in an odometer
-  makes 84 km of 2.9). All become null, never 0.
+  makes 84 km of 2.9), nor positions that nobody could have reached (`positions`). All become null,
+  never 0.
+- A distance that begins anew goes on where it was (`counters`). Speeds that are all below 0 are
+  those of a controller mounted the other way round, and turned.
 """
 
 from __future__ import annotations
@@ -17,12 +20,14 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 import numpy.typing as npt
 
-from backend.core.channels import ChannelSpec, Counts, Values
+from backend.core.channels import ChannelSpec, Values
 from backend.core.energy import KMH_PER_MS
 from backend.core.intake import CLOCK_JUMPED, CLOCK_NOT_SET, NO_TIME, NO_VALUE, Intake
 from backend.core.ride import RideRows
+from backend.formats.counters import continue_counter
 from backend.formats.fit_numbers import EPOCH_S
 from backend.formats.outcome import ImportedRide
+from backend.formats.positions import without_nowhere, without_unreachable
 
 # Before it a clock was never set: FIT then counts from the device's start. Behind 2099 nothing is.
 CLOCK_MIN_S = EPOCH_S + 0x10000000
@@ -35,6 +40,8 @@ TICK_US = 1_000_000
 REGULAR_TOLERANCE_US = 1000
 # A spike stands out by more than this many of its own resolution, too.
 SPIKE_STEPS = 4
+# Of a controller that is mounted the other way round, pushing it back is the rest.
+TURNED_SHARE = 0.9
 
 Seconds = npt.NDArray[np.float64]
 Places = npt.NDArray[np.intp]
@@ -46,7 +53,8 @@ class FieldRule:
 
     sources: names of the field, the best first. factor: file's unit -> channel's unit.
     lowest, highest: what a bike can do; beyond it the sample is missing. rate_max: how fast it can
-    change, a second; a single sample that does so to and fro is missing.
+    change, a second; a single sample that does so to and fro is missing. counts: it only grows.
+    may_be_turned: as a whole it may have the other sign.
     """
 
     channel: ChannelSpec
@@ -55,6 +63,8 @@ class FieldRule:
     highest: float
     factor: float = 1.0
     rate_max: float = np.inf
+    counts: bool = False
+    may_be_turned: bool = False
 
 
 SEMICIRCLE_DEG = 180.0 / 2**31
@@ -69,6 +79,7 @@ FIT_FIELDS: tuple[FieldRule, ...] = (
         117.9,
         KMH_PER_MS,
         70.0,
+        may_be_turned=True,
     ),
     FieldRule(ChannelSpec("cadence_rpm", "rpm", 1.0), ("cadence",), 0, 254),
     FieldRule(ChannelSpec("rider_power_w", "W", 1.0), ("power",), 0, 4000),
@@ -111,16 +122,15 @@ FIT_FIELDS: tuple[FieldRule, ...] = (
     ),
     FieldRule(ChannelSpec("grade_pct", "%", 0.01), ("grade",), -100, 100),
     FieldRule(
-        ChannelSpec("distance_m", "m", 0.01, wide=True), ("distance",), 0, 2e7, rate_max=60.0
+        ChannelSpec("distance_m", "m", 0.01, wide=True),
+        ("distance",),
+        0,
+        2e7,
+        rate_max=60.0,
+        counts=True,
+        may_be_turned=True,
     ),
-    # A thousandth of a degree of latitude is 111 m.
-    FieldRule(
-        ChannelSpec(LATITUDE, "deg", SEMICIRCLE_DEG, wide=True),
-        ("position_lat",),
-        -90,
-        90,
-        rate_max=0.001,
-    ),
+    FieldRule(ChannelSpec(LATITUDE, "deg", SEMICIRCLE_DEG, wide=True), ("position_lat",), -90, 90),
     FieldRule(
         ChannelSpec(LONGITUDE, "deg", SEMICIRCLE_DEG, wide=True), ("position_long",), -180, 180
     ),
@@ -135,6 +145,8 @@ class Tally:
     moved: int = 0
     dropped: dict[str, int] = field(default_factory=dict)
     values: dict[str, int] = field(default_factory=dict)
+    restarts: dict[str, int] = field(default_factory=dict)
+    turned: list[str] = field(default_factory=list)
 
     def drop(self, reason: str, rows: int) -> None:
         """Count rows that are not in the ride."""
@@ -189,6 +201,8 @@ def with_intake(
         rows_moved=tally.moved,
         rows_dropped=dict(tally.dropped),
         values_dropped=dict(tally.values),
+        restarts=dict(tally.restarts),
+        turned=tuple(tally.turned),
         fields_unread=dict(unread or {}),
     )
     return replace(ride, intake=intake)
@@ -235,23 +249,31 @@ def ride_of_rows(
     unix_us = np.rint(time_s * 1e6).astype(np.int64)
     started_us = int(unix_us[0])
     times_us = unix_us - started_us
+    for rule, values in read.items():
+        if rule.may_be_turned and is_turned(values):
+            np.negative(values, out=values)
+            tally.turned.append(rule.channel.name)
     left_out = {rule: cleaned(rule, values) for rule, values in read.items()}
     starts = np.flatnonzero(np.concatenate(([True], np.diff(times_us) > 0)))
     if len(starts) < len(times_us):
         times_us, starts = spread_out(times_us, starts, read.values(), tally)
     times = times_us[starts]
-    channels: list[ChannelSpec] = []
-    counts: dict[str, Counts] = {}
+    merged: dict[str, Values] = {}
     for rule, values in read.items():
-        merged = first_present(values, starts)
-        spikes = without_spikes(rule, merged, times)
+        one = merged[rule.channel.name] = first_present(values, starts)
+        spikes = without_spikes(rule, one, times)
         tally.leave_out(rule.channel.name, left_out[rule] + spikes)
-        if np.isfinite(merged).any():
-            channels.append(rule.channel)
-            counts[rule.channel.name] = rule.channel.to_counts(merged)
-    no_position(counts, channels, tally)
+        if rule.counts and (restarts := continue_counter(one, times / 1e6, rule.rate_max)):
+            tally.restarts[rule.channel.name] = restarts
+    if LATITUDE in merged and LONGITUDE in merged:
+        nowhere = without_nowhere(merged[LATITUDE], merged[LONGITUDE])
+        unreachable = without_unreachable(merged[LATITUDE], merged[LONGITUDE], times / 1e6)
+        for name in (LATITUDE, LONGITUDE):
+            tally.leave_out(name, nowhere + unreachable)
+    channels = [rule.channel for rule in read if np.isfinite(merged[rule.channel.name]).any()]
     if not channels:
         return None
+    counts = {channel.name: channel.to_counts(merged[channel.name]) for channel in channels}
     ride_rows = RideRows(tuple(channels), times, counts)
     return ImportedRide(
         started_us,
@@ -274,8 +296,18 @@ def rule_values(rule: FieldRule, columns: Mapping[str, Values]) -> Values | None
     return values
 
 
+def is_turned(values: Values) -> bool:
+    """Whether nearly all of the numbers that are not 0 are below it."""
+    signs = values[np.isfinite(values) & (values != 0)]
+    return len(signs) > 0 and bool(np.mean(signs < 0) >= TURNED_SHARE)
+
+
 def cleaned(rule: FieldRule, values: Values) -> int:
     """Take out of `values` what no bike can do; how many that were."""
+    if rule.channel.name == LONGITUDE:
+        # East of 180 degrees some files count on.
+        beyond = (np.abs(values) > 180) & (np.abs(values) <= 360)
+        values[beyond] -= np.copysign(360.0, values[beyond])
     impossible = np.isfinite(values) & ((values < rule.lowest) | (values > rule.highest))
     values[impossible | ~np.isfinite(values)] = np.nan
     return int(impossible.sum())
@@ -330,23 +362,6 @@ def spread_out(
     times = times_us + moved
     tally.spread += int(sizes[differ].sum())
     return times, np.flatnonzero(np.concatenate(([True], np.diff(times) > 0)))
-
-
-def no_position(counts: dict[str, Counts], channels: list[ChannelSpec], tally: Tally) -> None:
-    """0, 0 is where a receiver without a fix is, and half a position is none."""
-    if LATITUDE not in counts or LONGITUDE not in counts:
-        return
-    missing = {channel.name: channel.missing for channel in channels}
-    latitude, longitude = counts[LATITUDE], counts[LONGITUDE]
-    nowhere = (latitude == 0) & (longitude == 0)
-    half = (latitude == missing[LATITUDE]) != (longitude == missing[LONGITUDE])
-    tally.leave_out(LATITUDE, int(nowhere.sum()))
-    tally.leave_out(LONGITUDE, int(nowhere.sum()))
-    for values, name in ((latitude, LATITUDE), (longitude, LONGITUDE)):
-        values[nowhere | half] = missing[name]
-        if (values == missing[name]).all():
-            del counts[name]
-            channels[:] = [channel for channel in channels if channel.name != name]
 
 
 def first_present(values: Values, starts: Places) -> Values:

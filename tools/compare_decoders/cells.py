@@ -10,7 +10,8 @@ from dataclasses import dataclass, field
 import fitdecode
 import numpy as np
 
-from backend.formats.fit.fields import PROFILE_NAMES, channel_name, descriptions, table_of
+from backend.formats.fit.developer import E_BIKE_NAMES, described, descriptions
+from backend.formats.fit.fields import channel_name, table_of
 from backend.formats.fit.profile import RECORD_FIELDS
 from backend.formats.fit.salvage import Salvaging
 from backend.formats.fit.walk import sound_parts
@@ -120,8 +121,13 @@ def their_row(frame: fitdecode.FitDataMessage) -> Row:
         ):
             continue
         name = channel_name(one.name) if is_developer else one.name
-        if is_developer and name in PROFILE_NAMES:
-            name = f"developer_{name}"
+        if is_developer:
+            unit = str(getattr(one, "units", None) or "")
+            native = getattr(one.field_def.field, "native_field_num", None)
+            field = E_BIKE_NAMES.get(name) if native is None else native
+            app_field = described(name, unit, 0, RECORD_FIELDS.get(-1 if field is None else field))
+            name = app_field.name if app_field.meant in (None, *row) else app_field.meant
+            value *= app_field.factor
         if name in POSITION:
             value *= SEMICIRCLE_DEG
         row.setdefault(name, float(value))

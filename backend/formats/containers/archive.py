@@ -12,13 +12,13 @@ import io
 import zipfile
 import zlib
 from collections.abc import Iterator
-from contextlib import nullcontext
+from contextlib import nullcontext, suppress
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from typing import IO
 
 from backend.formats.containers.bulk import Titles, is_summary, left_alone, strava, summaries
-from backend.formats.containers.salvage import Salvaged
+from backend.formats.containers.salvage import IN_UTF8, Salvaged
 from backend.formats.formats import SNIFFED_BYTES, is_archive, refused_by_head
 from backend.formats.outcome import Outcome, rejected
 
@@ -32,6 +32,8 @@ RATIO_FROM_BYTES = 1024 * 1024
 ENTRIES_MAX = 20_000
 PIECE_BYTES = 1 << 20
 ENCRYPTED_FLAG = 0x1
+RESOURCE_FOLDER = "__MACOSX"
+VIEW_FILES = {".ds_store", "thumbs.db", "desktop.ini"}
 CUT = "The archive was cut: its list of files is gone. What is whole was taken; send it again."
 # What zipfile and its decompressors raise on damage or on a method they do not know.
 DAMAGE = (
@@ -126,7 +128,7 @@ def entries(source: Path | IO[bytes]) -> Iterator[Entry | Left]:
         except DAMAGE as error:
             sentence = f"The archive cannot be opened: {error}. Send it again."
             raise BrokenArchive(rejected("container_damaged", sentence)) from None
-        infos = [info for info in archive.infolist() if not is_folder(info)]
+        infos = files_within(archive)
         if len(infos) > ENTRIES_MAX:
             raise BrokenArchive(
                 rejected("too_large", f"The archive has {len(infos)} files; {ENTRIES_MAX} at most.")
@@ -173,9 +175,30 @@ def titles_of(archive: zipfile.ZipFile, infos: list[zipfile.ZipInfo], bounds: Bo
     return Titles(by_name, tuple(by_start))
 
 
-def is_folder(info: zipfile.ZipInfo) -> bool:
-    """As `is_dir`, which raises for a name that is empty."""
-    return info.filename.endswith("/")
+def files_within(archive: zipfile.ZipFile) -> list[zipfile.ZipInfo]:
+    """Its files under their right names, but for folders and what systems put beside files."""
+    for info in archive.infolist():
+        info.filename = right_name(info)
+    return [
+        info
+        for info in archive.infolist()
+        if not info.filename.endswith("/") and not is_side_file(info.filename)
+    ]
+
+
+def right_name(info: zipfile.ZipInfo) -> str:
+    """Some programs write names in UTF-8 and do not say so, some with the separators of Windows."""
+    name = info.filename
+    if not info.flag_bits & IN_UTF8:
+        with suppress(UnicodeError):
+            name = name.encode("cp437").decode()
+    return name if "/" in name else name.replace("\\", "/")
+
+
+def is_side_file(name: str) -> bool:
+    """Whether a system, not a person, put a file there: attributes and views of folders."""
+    *folders, last = name.split("/")
+    return RESOURCE_FOLDER in folders or last.startswith("._") or last.lower() in VIEW_FILES
 
 
 def opened(
@@ -221,9 +244,8 @@ def nested(
         yield Entry(name, len(data), None, "container_damaged", sentence)
         return
     with inner:
-        for info in inner.infolist():
-            if not is_folder(info):
-                yield from opened(inner, info, bounds, names_read, within=f"{name}/")
+        for info in files_within(inner):
+            yield from opened(inner, info, bounds, names_read, within=f"{name}/")
         if isinstance(inner, Salvaged):
             yield Entry(name, len(data), None, "truncated", CUT)
 

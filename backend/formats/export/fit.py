@@ -16,9 +16,10 @@ from typing import Any
 import numpy as np
 from fastcrc import crc16
 
+from backend.core.breaks import DISTANCE
 from backend.core.channels import Values
 from backend.core.energy import DEMANDED, KMH_PER_MS, MOTOR_POWER, MOTOR_TORQUE, RIDER_POWER
-from backend.core.ride import Ride, pause_us
+from backend.core.ride import Ride
 from backend.formats.export.seconds import SECOND_US, BySecond
 from backend.formats.fit_numbers import (
     ACTIVITY,
@@ -68,7 +69,7 @@ NATIVE = (
     Native("altitude_m", 78, UINT32, 5, 500),
     Native("heart_rate_bpm", 3, UINT8),
     Native("cadence_rpm", 4, UINT8),
-    Native("distance_m", 5, UINT32, 100),
+    Native(DISTANCE, 5, UINT32, 100),
     Native("speed_kmh", 73, UINT32, 1000, factor=1 / KMH_PER_MS),
     Native(RIDER_POWER.name, 7, UINT16),
     Native(MOTOR_POWER.name, 82, UINT16),
@@ -160,6 +161,9 @@ def records(ridden: BySecond, own: dict[str, tuple[str, str]], breaks: list[int]
 
 def raw(one: Native, values: Values) -> Values:
     """Values (n,) as a field's whole numbers; its "no value" for what is missing or too large."""
+    if one.channel == DISTANCE:
+        # A session's distance begins at 0; an odometer does not.
+        values = values - next(iter(values[np.isfinite(values)]), 0.0)
     numbers = np.rint((values * one.factor + one.offset) * one.scale)
     limits = np.iinfo(np.dtype(BASE_TYPES[one.base].code))
     beyond = ~np.isfinite(numbers) | (numbers < limits.min) | (numbers >= limits.max)
@@ -169,10 +173,14 @@ def raw(one: Native, values: Values) -> Values:
 
 def pauses(ride: Ride, ridden: BySecond) -> list[int]:
     """Places (of seconds) before which the ride has a gap."""
-    longest_s = max(
-        pause_us((ridden.unix_s - ridden.unix_s[0]) * SECOND_US, ride.period_us), SECOND_US
-    )
-    return [int(at) + 1 for at in np.flatnonzero(np.diff(ridden.unix_s) * SECOND_US > longest_s)]
+    start_s = ride.started_us / SECOND_US
+    starts_s = np.array([gap.from_s for gap in ride.gaps]) + start_s
+    ends_s = np.maximum.accumulate([gap.to_s for gap in ride.gaps]) + start_s
+    jumps = np.flatnonzero(np.diff(ridden.unix_s) > 1)
+    middles_s = (ridden.unix_s[jumps] + ridden.unix_s[jumps + 1]) / 2
+    before = np.searchsorted(starts_s, middles_s) - 1
+    within = [at >= 0 and middle < ends_s[at] for at, middle in zip(before, middles_s, strict=True)]
+    return [int(at) + 1 for at in jumps[within]]
 
 
 def summaries(ride: Ride, ridden: BySecond, start_s: int, end_s: int) -> list[bytes]:

@@ -11,14 +11,13 @@ import numpy.typing as npt
 
 from backend.core.channels import Values
 from backend.formats.fit.layout import Definition, Field
-from backend.formats.fit.profile import COMPRESSED_SPEED_DISTANCE, RECORD_FIELDS, ProfileField
+from backend.formats.fit.profile import COMPRESSED_SPEED_DISTANCE, ProfileField
 from backend.formats.fit_numbers import BASE_TYPES, TIMESTAMP, UINT32
 from backend.formats.own_channels import Column
 
 Bytes = npt.NDArray[np.uint8]
 Places = npt.NDArray[np.int64]
 Columns = dict[str, Column]
-PROFILE_NAMES = frozenset(field.name for field in RECORD_FIELDS.values())
 
 # Twelve bits of speed and twelve of a distance, as three bytes have them.
 TWELVE_BITS = 1 << 12
@@ -28,11 +27,14 @@ ROUNDS = "compressed_distance"
 
 @dataclass(frozen=True)
 class Described:
-    """A developer's field, as the file describes it."""
+    """A field that an app described. value = number x factor, in `unit`. meant: the profile's
+    field that it is."""
 
     name: str
     unit: str
     base: int
+    factor: float = 1.0
+    meant: str | None = None
 
 
 @dataclass
@@ -94,6 +96,9 @@ def table_of(
                     table.unread[name] = table.unread.get(name, 0) + len(at)
                 else:
                     write_column(table, name, column, rows)
+    for app_field in (described or {}).values():
+        if app_field.meant is not None:
+            merge_column(table, app_field.name, app_field.meant)
     add_up_rounds(table)
     return table
 
@@ -122,6 +127,17 @@ def write_column(table: Table, name: str, column: Column, rows: Places) -> None:
     )
 
 
+def merge_column(table: Table, name: str, meant: str) -> None:
+    """Make an app's column the profile's, unless the device itself wrote that in the same rows."""
+    column, native = table.columns.get(name), table.columns.get(meant)
+    if column is None or (
+        native is not None and (np.isfinite(column.values) & np.isfinite(native.values)).any()
+    ):
+        return
+    write_column(table, meant, column, np.arange(len(table)))
+    del table.columns[name]
+
+
 def columns_of(
     messages: Bytes,
     one: Field,
@@ -138,8 +154,9 @@ def columns_of(
             return
         typed = Field(one.number, one.size, description.base, one.at)
         if is_number(typed):
-            values = numbers(messages, typed, little)
-            yield description.name, Column(values, description.unit, integer_step(typed))
+            values = numbers(messages, typed, little) * description.factor
+            step = integer_step(typed) * description.factor
+            yield description.name, Column(values, description.unit, step)
         else:
             yield description.name, None
         return
@@ -221,23 +238,3 @@ def text(data: bytes, definition: Definition, offset: int, number: int) -> str:
 def channel_name(field_name: str) -> str:
     """A name as our channels have them: lower case, digits and underscores."""
     return re.sub(r"[^a-z0-9]+", "_", field_name.lower()).strip("_")[:40]
-
-
-def descriptions(
-    data: bytes, definitions: Iterable[Definition]
-) -> dict[tuple[int, int], Described]:
-    """Developers' fields of a file, by owner and number; a later description counts."""
-    by_number: dict[tuple[int, int], Described] = {}
-    for definition in definitions:
-        cells = {f.number: f for f in definition.fields if f.developer is None and f.size == 1}
-        for offset in definition.offsets:
-            owner, number, base = (
-                data[offset + cells[n].at] if n in cells else 0xFF for n in (0, 1, 2)
-            )
-            name = channel_name(text(data, definition, offset, 3)) or f"{owner}_{number}"
-            if name in PROFILE_NAMES or name[:1].isdigit():
-                # What an app computes is not what the profile's field of that name is.
-                name = f"developer_{name}"
-            unit = text(data, definition, offset, 8)
-            by_number[owner, number] = Described(name, unit, base)
-    return by_number

@@ -105,3 +105,4 @@ RECORD_FIELDS: dict[int, ProfileField] = {
     127: ProfileField("ascent_rate", "m/s", 1000),
     139: ProfileField("core_temperature", "degC", 100),
 }
+PROFILE_NAMES = frozenset(field.name for field in RECORD_FIELDS.values())

@@ -16,8 +16,9 @@ import numpy as np
 from backend.core.device_metadata import within
 from backend.formats.columns import Places, rides_of_columns
 from backend.formats.fit.balance import with_leg
+from backend.formats.fit.developer import descriptions
 from backend.formats.fit.device_figures import statements_of
-from backend.formats.fit.fields import Table, descriptions, table_of
+from backend.formats.fit.fields import Table, table_of
 from backend.formats.fit.layout import CHECKSUM_BYTES, Part
 from backend.formats.fit.mend import mended
 from backend.formats.fit.metadata import metadata_of

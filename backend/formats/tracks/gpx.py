@@ -9,15 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from math import isfinite
 
-from backend.core.device_metadata import (
-    INSTRUMENTS_MAX,
-    PAUSES_MAX,
-    DeviceMetadata,
-    Instrument,
-    Pause,
-)
+from backend.core.device_metadata import INSTRUMENTS_MAX, Instrument
 from backend.formats.outcome import Outcome
 from backend.formats.tracks.rides import Clock, Track, outcome_of, refused
 from backend.formats.tracks.walk import Listener, Shape, Texts, UnsafeXml, as_utf8, walk
@@ -58,8 +51,6 @@ class GpxReader:
         self.tracks: list[Track] = []
         self._clock = Clock()
         self.instruments: tuple[Instrument, ...] = ()
-        self._last_s = float("nan")
-        self._new_segment = False
 
     def opened(self, name: str, attributes: Mapping[str, str]) -> None:
         """A file, a track or a segment begins."""
@@ -68,9 +59,8 @@ class GpxReader:
             self.instruments = (*self.instruments, recorder)
         elif name == "trk":
             self.tracks.append(Track(self._clock))
-            self._last_s = float("nan")
-        elif name == "trkseg":
-            self._new_segment = True
+        elif name == "trkseg" and self.tracks:
+            self.tracks[-1].interrupt()
 
     def closed(self, name: str) -> None:
         """Nothing is known only then."""
@@ -85,11 +75,4 @@ class GpxReader:
         """A point of the latest track."""
         if not self.tracks:
             self.tracks.append(Track(self._clock))
-        track = self.tracks[-1]
-        time_s = track.add(texts)
-        if self._new_segment and self._last_s < time_s and len(track.metadata.pauses) < PAUSES_MAX:
-            pauses = (*track.metadata.pauses, Pause(self._last_s, time_s))
-            track.metadata = DeviceMetadata(pauses=pauses)
-        self._new_segment = False
-        if isfinite(time_s):
-            self._last_s = time_s
+        self.tracks[-1].add(texts)

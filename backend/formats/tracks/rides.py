@@ -5,20 +5,25 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from datetime import UTC, tzinfo
-from math import floor
+from math import floor, isfinite
 
-from backend.core.device_metadata import DeviceMetadata, within
+import numpy as np
+
+from backend.core.channels import Values
+from backend.core.device_metadata import PAUSES_MAX, DeviceMetadata, Pause, within
 from backend.core.intake import Intake
 from backend.formats.cells import Growing, as_written, iso_moment, step_of, unix_seconds
 from backend.formats.columns import rides_of_columns
+from backend.formats.local_times import in_zone
 from backend.formats.outcome import COMPLETE, PARTIAL, ImportedRide, Outcome, rejected
 from backend.formats.own_channels import Column, rules_of
 from backend.formats.tracks.walk import TRUNCATED, Texts, UnsafeXml, Walked
 
 ROWS_MAX = 2_000_000
 TIME = "unix_s"
-# Names of elements, in lower case -> our names of fields, which say the unit. Speed is in m/s and
-# the rest as in FIT, by the schemas GPX 1.0, TrackPointExtension v1 and v2, and ActivityExtension.
+# Elements, in lower case, by name or `namespace:name` -> our names of fields, which state the unit.
+# Speed is in m/s and the rest as in FIT, by the schemas GPX 1.0, TrackPointExtension v1 and v2,
+# ActivityExtension, and gpxdata of Cluetrust. OpenTracks writes the metres since the point before.
 FIELDS = {
     "lat": "position_lat",
     "lon": "position_long",
@@ -27,23 +32,28 @@ FIELDS = {
     "ele": "altitude",
     "altitudemeters": "altitude",
     "hr": "heart_rate",
+    "bpm": "heart_rate",
     "heartrate": "heart_rate",
     "heartratebpm": "heart_rate",
     "cad": "cadence",
+    "rpm": "cadence",
     "atemp": "temperature",
     "temp": "temperature",
     "watts": "power",
     "powerinwatts": "power",
     "distancemeters": "distance",
+    "opentracks:distance": "opentracks_distance",
 }
+STEPS = "opentracks_distance"
+# A sum falls between so few rows: where it begins anew, or by the noise of positions.
+FALLS_SHARE = 0.05
 UNITS = {"runcadence": "rpm", "course": "deg", "bearing": "deg", "wtemp": "degC", "depth": "m"}
 
 
 class Clock:
-    """Moments of a file as Unix time. zone: of those that name none."""
+    """Moments of a file as Unix time; those that name no zone as though they were in UTC."""
 
-    def __init__(self, zone: tzinfo = UTC) -> None:
-        self._zone = zone
+    def __init__(self) -> None:
         self._naive = self._zoned = False
 
     def unix_s(self, text: str) -> float:
@@ -51,7 +61,7 @@ class Clock:
         moment = iso_moment(text)
         if moment is not None and moment.tzinfo is None:
             self._naive = True
-            moment = moment.replace(tzinfo=self._zone)
+            moment = moment.replace(tzinfo=UTC)
         elif moment is not None:
             self._zoned = True
         return unix_seconds(moment)
@@ -62,32 +72,63 @@ class Clock:
         return self._naive and not self._zoned
 
     @property
-    def taken_as(self) -> dict[str, str]:
-        """What the file does not say of its times, for the intake."""
-        return {"time_zone": str(self._zone)} if self._naive else {}
+    def names_none(self) -> bool:
+        """Whether a moment named no zone."""
+        return self._naive
 
 
 @dataclass
 class Track:
-    """One ride's points as they come."""
+    """One ride's points as they come. zone: of times that were read as UTC and name none.
+
+    pauses: rows before and behind each interruption.
+    """
 
     clock: Clock
     sport: str | None = None
+    zone: tzinfo | None = None
     points: Growing = field(default_factory=Growing)
+    names: dict[str, str] = field(default_factory=dict)
     metadata: DeviceMetadata = field(default_factory=DeviceMetadata)
+    pauses: list[tuple[int, int]] = field(default_factory=list)
+    _last_row: int | None = None
+    _interrupted: bool = False
+
+    def interrupt(self, by_pause: bool = True) -> None:
+        """The next point is behind a pause, or it is not in spite of what was told before."""
+        self._interrupted = by_pause
 
     def add(self, texts: Texts) -> float:
         """A point; its Unix time, NaN for none."""
         cells, time_s = {}, float("nan")
         for field_name, text in texts.items():
-            name = field_name.lower()
-            if name == "time":
+            if field_name.lower() == "time":
                 time_s = self.clock.unix_s(text)
                 cells[TIME] = repr(time_s)
             else:
-                cells.setdefault(FIELDS.get(name, channel_name(name)), text)
+                cells.setdefault(self._column(field_name), text)
+        row = self.points.rows
         self.points.add(cells)
+        if isfinite(time_s):
+            if self._interrupted and self._last_row is not None and len(self.pauses) < PAUSES_MAX:
+                self.pauses.append((self._last_row, row))
+            self._interrupted, self._last_row = False, row
         return time_s
+
+    def in_its_zone(self, seconds: Values) -> Values:
+        """Times (n,) of rows, read as UTC, as Unix time."""
+        return seconds if self.zone is None else in_zone(seconds, self.zone)
+
+    def _column(self, field_name: str) -> str:
+        """The column of an element: those of two namespaces are two, whatever they are called."""
+        column = self.names.get(field_name)
+        if column is None:
+            namespace, _, name = field_name.lower().rpartition(":")
+            column = FIELDS.get(field_name.lower()) or FIELDS.get(name) or channel_name(name)
+            if column in self.names.values():
+                column = channel_name(f"{namespace}_{name}")
+            self.names[field_name] = column
+        return column
 
 
 def channel_name(field_name: str) -> str:
@@ -102,6 +143,10 @@ def rides_of(track: Track) -> list[ImportedRide]:
     times = columns.pop(TIME, None)
     if times is None:
         return []
+    times = track.in_its_zone(times)
+    pauses = [Pause(*times[list(rows)].tolist()) for rows in track.pauses]
+    metadata = replace(track.metadata, pauses=tuple(p for p in pauses if p.from_s < p.to_s))
+    add_distance(columns)
     named = {
         name: Column(values, UNITS.get(name, ""), step_of(values))
         for name, values in columns.items()
@@ -111,11 +156,35 @@ def rides_of(track: Track) -> list[ImportedRide]:
     return [
         replace(
             ride,
-            metadata=within(track.metadata, *ride.span_s),
-            intake=replace(ride.intake or Intake(), taken_as=track.clock.taken_as),
+            metadata=within(metadata, *ride.span_s),
+            intake=replace(ride.intake or Intake(), taken_as=taken_as(track)),
         )
         for ride in rides
     ]
+
+
+def taken_as(track: Track) -> dict[str, str]:
+    """What the file does not state of its times, for the intake."""
+    return {"time_zone": str(track.zone or UTC)} if track.clock.names_none else {}
+
+
+def add_distance(columns: dict[str, Values]) -> None:
+    """The distance ridden so far, where a file has metres from point to point instead.
+
+    Whether a column is a sum or such steps its values decide: a sum does not fall.
+    """
+    if "distance" in columns and is_sum(columns["distance"]):
+        return
+    for name in ("distance", STEPS):
+        if name in columns:
+            columns["distance"] = np.nancumsum(columns[name])
+            return
+
+
+def is_sum(values: Values) -> bool:
+    """Whether numbers (n,) add up something: they hardly ever fall, as steps do all the time."""
+    steps = np.diff(values[np.isfinite(values)])
+    return not len(steps) or bool(np.mean(steps < 0) <= FALLS_SHARE)
 
 
 def outcome_of(tracks: Sequence[Track], walked: Walked, length: int, what: str) -> Outcome:

@@ -1,8 +1,8 @@
 """TCX (Training Center Database v2): each activity a ride, with its laps and its device.
 
-Positions are optional: a ride on a roller has none. Times that name no zone are not read before
-somebody says it, as a table's. Speed and power are those of the extension ActivityExtension v2. A
-course is a plan, not a ride.
+Positions are optional: a ride on a roller has none. Between two tracks of a lap the timer stood.
+Times that name no zone are not read before somebody says it, as a table's. Speed and power are
+those of the extension ActivityExtension v2. A course is a plan, not a ride.
 """
 
 from __future__ import annotations
@@ -10,7 +10,6 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from datetime import UTC
 from math import isfinite
 
 import numpy as np
@@ -20,10 +19,10 @@ from backend.core.device_metadata import LAPS_MAX, DeviceMetadata, Instrument, L
 from backend.formats.cells import number
 from backend.formats.outcome import NEEDS_MAPPING, Outcome, rejected
 from backend.formats.questions import TableAnswer, TableQuestion
-from backend.formats.tracks.rides import Clock, Track, outcome_of, refused
+from backend.formats.tracks.rides import TIME, Clock, Track, outcome_of, refused
 from backend.formats.tracks.walk import Listener, Shape, Texts, UnsafeXml, as_utf8, walk
 
-SHAPE = Shape("Trackpoint", ("Activity", "Course", "Lap", "Creator"))
+SHAPE = Shape("Trackpoint", ("Activity", "Course", "Lap", "Track", "Creator"))
 SPORTS = {"biking": "cycling", "running": "running", "other": None}
 SPORT_LENGTH_MAX = 32
 TRIGGERS = {
@@ -37,10 +36,13 @@ TRIGGERS = {
 
 @dataclass
 class RecordedLap:
-    """A lap as the file has it. first_s, last_s: times of its points."""
+    """A lap as the file has it. first_row, last_row: of all points, those with a time. first_s,
+    last_s: times of its points, once they are known."""
 
     start_s: float
     texts: dict[str, str] = field(default_factory=dict)
+    first_row: int | None = None
+    last_row: int | None = None
     first_s: float = float("nan")
     last_s: float = float("nan")
 
@@ -57,7 +59,7 @@ class Activity:
 def read_tcx(data: bytes, answer: TableAnswer | None = None) -> Outcome:
     """A TCX file -> what came of it. Never raises on any bytes. answer: the zone, where asked."""
     zone = zone_of(answer.time_zone) if answer and answer.time_zone else None
-    reader = TcxReader(clock := Clock(zone or UTC))
+    reader = TcxReader(clock := Clock())
     listener = Listener(reader.opened, reader.closed, reader.text_read, reader.point)
     try:
         walked = walk(as_utf8(data), SHAPE, listener)
@@ -71,6 +73,8 @@ def read_tcx(data: bytes, answer: TableAnswer | None = None) -> Outcome:
         detail = f"A {question.kind} that does not say: time_zone. Say it once, and every such "
         return replace(rejected(NEEDS_MAPPING, f"{detail}file is read."), question=question)
     for activity in activities:
+        activity.track.zone = zone if clock.lacks_zone else None
+        place_laps(activity)
         activity.track.metadata = DeviceMetadata(
             laps=laps_of(activity), instruments=device_of(activity)
         )
@@ -85,7 +89,7 @@ class TcxReader:
         self._clock = clock
         self.activities: list[Activity] = []
         self.courses = 0
-        self._in_course = self._in_device = False
+        self._in_course = self._in_device = self._new_lap = False
 
     def opened(self, name: str, attributes: Mapping[str, str]) -> None:
         """An activity, a course, a lap or a device begins."""
@@ -101,6 +105,11 @@ class TcxReader:
             laps = self._latest().laps
             if len(laps) < LAPS_MAX:
                 laps.append(RecordedLap(start_s))
+            self._new_lap = True
+        elif name == "Track" and not self._in_course and self.activities:
+            # A lap begins without a pause; within it the timer stood between two tracks.
+            self.activities[-1].track.interrupt(not self._new_lap)
+            self._new_lap = False
         elif name == "Creator":
             self._in_device = True
 
@@ -126,16 +135,33 @@ class TcxReader:
         activity = self._latest()
         # What the sensor on the foot is called is no number.
         texts.pop("SensorState", None)
+        row = activity.track.points.rows
         time_s = activity.track.add(texts)
         if activity.laps and isfinite(time_s):
             lap = activity.laps[-1]
-            lap.first_s = float(np.fmin(lap.first_s, time_s))
-            lap.last_s = float(np.fmax(lap.last_s, time_s))
+            lap.first_row = row if lap.first_row is None else lap.first_row
+            lap.last_row = row
 
     def _latest(self) -> Activity:
         if not self.activities:
             self.activities.append(Activity(Track(self._clock)))
         return self.activities[-1]
+
+
+def place_laps(activity: Activity) -> None:
+    """Times of laps as Unix time: each as far off as its first point, or else the one before it."""
+    times = activity.track.points.values().get(TIME)
+    if times is None:
+        return
+    in_zone = activity.track.in_its_zone(times)
+    shift_s = in_zone - times
+    off_s = float(next(iter(shift_s[np.isfinite(shift_s)]), 0.0))
+    for lap in activity.laps:
+        if lap.first_row is not None and lap.last_row is not None:
+            off_s = float(shift_s[lap.first_row])
+            own = in_zone[lap.first_row : lap.last_row + 1]
+            lap.first_s, lap.last_s = float(np.nanmin(own)), float(np.nanmax(own))
+        lap.start_s += off_s
 
 
 def question_of(activities: Sequence[Activity]) -> TableQuestion:

@@ -2,7 +2,8 @@
 
 Expat reads it; nothing outside the file is ever fetched, and a file that declares entities of its
 own is refused. After damage reading goes on at the next opening of a part that is known. Names are
-taken without their prefix, since files use any.
+taken by their namespace, since files use any prefix; a file that declares none is taken by those
+that are usual.
 """
 
 from __future__ import annotations
@@ -19,9 +20,22 @@ ENCODING = re.compile(rb"""^\s*<\?xml[^>]{0,200}?encoding\s*=\s*["']([A-Za-z0-9.
 MARKS = ((b"\xef\xbb\xbf", "utf-8"), (b"\xff\xfe", "utf-16-le"), (b"\xfe\xff", "utf-16-be"))
 # Opens whatever is read behind damage, where the real beginnings are behind us.
 PLACEHOLDER = b"<behind>"
+# What a namespace is called here -> what its address holds, and the prefixes that are usual for it.
+NAMESPACES: dict[str, tuple[str, tuple[str, ...]]] = {
+    "": ("topografix.com/gpx", ("gpx",)),
+    "tcx": ("trainingcenterdatabase", ()),
+    "activity": ("activityextension", ("ns3", "tpx", "ext")),
+    "point": ("trackpointextension", ("gpxtpx", "ns2")),
+    "power": ("powerextension", ("pwr",)),
+    "cluetrust": ("cluetrust.com", ("gpxdata",)),
+    "opentracks": ("opentracksapp.com", ()),
+}
 TRUNCATED, DAMAGED = "truncated", "damaged"
 
 Texts = dict[str, str]
+
+
+OWN = ("", "tcx")
 
 
 class UnsafeXml(Exception):
@@ -50,13 +64,25 @@ class Listener:
     """Who hears what the walk meets.
 
     opened: a part with its attributes. closed: a part. text_read: text of an element outside of the
-    points, with its parent's name. point: texts of a point by name; `Value` under its parent's.
+    points, with its parent's name. point: texts of a point by `namespace:name`, the file's own
+    without a namespace; `Value` under its parent's name.
     """
 
     opened: Callable[[str, Mapping[str, str]], None]
     closed: Callable[[str], None]
     text_read: Callable[[str, str, str], None]
     point: Callable[[Texts], None]
+
+
+def namespace_of(address: str) -> str:
+    """What a namespace is called here; "" for the tracks' own and for unknown ones."""
+    plain = address.lower()
+    return next((name for name, (part, _) in NAMESPACES.items() if part in plain), "")
+
+
+def usual_namespace(prefix: str) -> str:
+    """The namespace that a prefix usually stands for; the prefix itself where it has no other."""
+    return next((name for name, (_, usual) in NAMESPACES.items() if prefix in usual), prefix)
 
 
 @dataclass
@@ -90,9 +116,10 @@ def walk(text: bytes, shape: Shape, listener: Listener) -> Walked:
     openings = shape.openings
     point = re.compile(rb"<(?:[\w.-]+:)?" + shape.point.encode() + rb"(?=[\s/>])")
     walked = Walked(points_begun=sum(1 for _ in point.finditer(text)))
+    prefixes: dict[str, str] = {}
     at, begin = len(text) - len(text.lstrip()), b""
     while at < len(text):
-        reader = Reader(shape, listener, walked, begin)
+        reader = Reader(shape, listener, walked, begin, prefixes)
         end = reader.read(text, at)
         if end is None:
             return walked
@@ -109,9 +136,16 @@ def walk(text: bytes, shape: Shape, listener: Listener) -> Walked:
 class Reader:
     """One pass of expat, from a place on to the end or to what is no XML."""
 
-    def __init__(self, shape: Shape, listener: Listener, walked: Walked, begin: bytes) -> None:
+    def __init__(
+        self,
+        shape: Shape,
+        listener: Listener,
+        walked: Walked,
+        begin: bytes,
+        prefixes: dict[str, str],
+    ) -> None:
         self._shape, self._listener, self._walked = shape, listener, walked
-        self._begin = begin
+        self._begin, self._prefixes = begin, prefixes
         self._names: list[str] = []
         self._texts: list[str] = []
         self._point: Texts | None = None
@@ -142,7 +176,10 @@ class Reader:
 
     def _start(self, qualified_name: str, attributes: Mapping[str, str]) -> None:
         name = qualified_name.rpartition(":")[2]
-        self._names.append(name)
+        self._names.append(qualified_name)
+        for attribute, address in attributes.items():
+            if attribute.startswith("xmlns:"):
+                self._prefixes[attribute[6:]] = namespace_of(address) or attribute[6:]
         self._texts, self._leaf = [], True
         if name == self._shape.point:
             self._point = dict(attributes)
@@ -153,7 +190,8 @@ class Reader:
         name = qualified_name.rpartition(":")[2]
         if self._names:
             self._names.pop()
-        parent = self._names[-1] if self._names else ""
+        qualified_parent = self._names[-1] if self._names else ""
+        parent = qualified_parent.rpartition(":")[2]
         text = "".join(self._texts).strip() if self._leaf else ""
         self._texts, self._leaf = [], False
         if name == self._shape.point:
@@ -163,11 +201,19 @@ class Reader:
             self._point = None
         elif self._point is not None:
             if text:
-                self._point.setdefault(parent if name == "Value" else name, text)
+                self._point.setdefault(
+                    self._full_name(qualified_parent if name == "Value" else qualified_name), text
+                )
         elif name in self._shape.parts:
             self._listener.closed(name)
         elif text:
             self._listener.text_read(parent, name, text)
+
+    def _full_name(self, qualified_name: str) -> str:
+        """`namespace:name`, or the name alone in the namespaces that tracks themselves have."""
+        prefix, _, name = qualified_name.rpartition(":")
+        namespace = self._prefixes.get(prefix) or usual_namespace(prefix)
+        return f"{namespace}:{name}" if namespace not in OWN else name
 
     def _text(self, text: str) -> None:
         if sum(map(len, self._texts)) < TEXT_CHARACTERS_MAX:

@@ -81,6 +81,29 @@ def developer_fields() -> bytes:
     return enclosed(body)
 
 
+def developer_fields_that_are_known() -> bytes:
+    """Of an app: by the profile's number a temperature in percent of nothing, a temperature, and
+    the power that the device has as well; by its name the charge of the battery."""
+    body = definition(0, 207, [(3, 1, UINT8)]) + b"\x00\x00"
+    cells = [(0, 1, UINT8), (1, 1, UINT8), (2, 1, UINT8), (14, 2, UINT16), (15, 1, UINT8)]
+    body += definition(1, 206, [*cells, (3, 16, TEXT), (8, 8, TEXT)])
+    described = [
+        ("strange", "%", RECORD, 127),
+        ("Body Temp", "C", RECORD, 139),
+        ("Pedal Power", "watts", RECORD, 7),
+        ("currBattery", "%", 0xFFFF, 0xFF),
+    ]
+    for number, (name, unit, message, native) in enumerate(described):
+        head = struct.pack("<BBBBHB", 1, 0, number, FLOAT32, message, native)
+        body += head + struct.pack("<16s8s", name.encode(), unit.encode())
+    head = struct.pack("<BBBHB", 0x40 | 0x20 | 2, 0, 0, RECORD, 2)
+    head += struct.pack("BBB", *STAMP) + struct.pack("BBB", *POWER)
+    body += head + bytes([4]) + b"".join(bytes([number, 4, 0]) for number in range(4))
+    for s in range(9):
+        body += struct.pack("<BIHffff", 2, NOW + s, 150, 5.0, 38.25, 148.0, 90.0 - s)
+    return enclosed(body)
+
+
 def unknown_and_odd_fields() -> bytes:
     """A number the profile has no name for, a list of two, a text, and a size no number has."""
     fields = [STAMP, (222, 2, UINT16), (69, 2, UINT8), (230, 6, TEXT), (231, 3, UINT32)]
@@ -120,6 +143,7 @@ FEATURES = {
     "speed and distance in three bytes": compressed_speed_and_distance(),
     "a field twice": a_field_twice(),
     "fields of a developer": developer_fields(),
+    "fields of a developer by number": developer_fields_that_are_known(),
     "unknown and odd fields": unknown_and_odd_fields(),
     "a layout that changes": defined_anew(),
     "two files in a row": fit_file(commute(30)) + fit_file(commute(20, START_S + 86_400)),
@@ -192,6 +216,17 @@ def test_fields_that_no_bike_has_are_channels_of_their_own_name_and_unit() -> No
     assert column_of(ride, "rider_torque_nm")[8] == pytest.approx(28.5)
     assert column_of(ride, "rider_power_w") == pytest.approx([150.0] * 9)
     assert column_of(ride, "developer_power") == pytest.approx([333.0] * 9)
+
+
+def test_a_developer_s_field_with_a_number_of_the_profile_is_that_field() -> None:
+    """Unless its unit is no unit of it, or the device itself has another value in the same row."""
+    ride = only_ride(developer_fields_that_are_known())
+
+    assert column_of(ride, "core_temperature") == pytest.approx([38.25] * 9)
+    assert column_of(ride, "battery_soc_pct") == [90.0 - s for s in range(9)]
+    assert column_of(ride, "rider_power_w") == pytest.approx([150.0] * 9)
+    assert column_of(ride, "pedal_power") == pytest.approx([148.0] * 9)
+    assert column_of(ride, "strange") == pytest.approx([5.0] * 9)
 
 
 def test_what_is_no_single_number_is_listed() -> None:

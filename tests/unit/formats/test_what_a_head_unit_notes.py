@@ -13,6 +13,7 @@ import fitdecode
 import numpy as np
 import pytest
 
+from backend.core.breaks import find_breaks
 from backend.core.device_metadata import (
     DeviceFigure,
     DeviceMetadata,
@@ -115,18 +116,20 @@ def test_a_stop_of_the_timer_is_a_pause_and_a_gap_though_it_is_short() -> None:
     ride = only_ride(a_ride_with_a_stop())
     empty = np.zeros(len(ride.rows.times_us), dtype=bool)
 
-    (gap,) = find_gaps(ride.rows.times_us, empty, None, ride.metadata.pauses)
+    (gap,) = find_gaps(
+        ride.rows.times_us, empty, find_breaks({}, ride.rows.times_us, ride.metadata.pauses)
+    )
 
     assert ride.metadata.pauses == (Pause(40.0, 46.0, by_rider=True),)
     assert (gap.from_s, gap.to_s, gap.rows_lost) == (39.0, 46.0, None)
-    assert find_gaps(ride.rows.times_us, empty, None) == ()
+    assert find_gaps(ride.rows.times_us, empty, find_breaks({}, ride.rows.times_us)) == ()
 
 
 def test_a_pause_in_which_rows_were_written_is_no_gap() -> None:
     times_us = np.arange(100, dtype=np.int64) * 1_000_000
     empty = np.zeros(100, dtype=bool)
 
-    assert find_gaps(times_us, empty, 1_000_000, [Pause(40.0, 46.0)]) == ()
+    assert find_gaps(times_us, empty, find_breaks({}, times_us, [Pause(40.0, 46.0)])) == ()
 
 
 def test_devices_are_told_once_each_with_what_was_heard_of_them_last() -> None:
