@@ -28,6 +28,7 @@ from backend.calibration.certified_torque import CertifiedTorque
 from backend.calibration.clock import JobDates
 from backend.calibration.records import CalibrationStore
 from backend.calibration.service import Calibrations, open_calibrations
+from backend.core.ride import Ride
 from backend.device.driver import LinkOpener
 from backend.device.families import FAMILIES, Families
 from backend.device.link import kind_of
@@ -43,7 +44,7 @@ from backend.rides.diagnosis.sensor_drift import SensorDriftService
 from backend.rides.diagnosis.service import RideZeros
 from backend.rides.insight.ledger import EnergyLedger
 from backend.rides.insight.table_use import UseOfTable
-from backend.rides.logbook.cards import RideCards
+from backend.rides.logbook.cards import RideCards, RideFigures
 from backend.rides.logbook.home import RiderHomeService
 from backend.rides.questions import Insight
 from backend.rides.recording.fault_moment import FaultMoments, RecentRows
@@ -104,7 +105,7 @@ def open_services(
     check(settings)
     with contextlib.ExitStack() as closing:
         store = closing.enter_context(open_store(settings.db, settings.objects))
-        units = UnitStore(store.database)
+        units, cards = UnitStore(store.database), RideCards(store)
         last_seen = closing.enter_context(contextlib.closing(LastSeen(units)))
         devices = make_devices(settings, units, last_seen, families, opener)
         revisions, proofs = make_revisions(store)
@@ -113,7 +114,7 @@ def open_services(
         closing.callback(memory.close)
         recorder = Recorder(store.rides, memory.ride_context, unfinished=store.unfinished)
         closing.callback(recorder.close)
-        uploads = make_uploads(settings, store)
+        uploads = make_uploads(settings, store, cards.make)
         in_background("uploads", uploads.recover)
         # Units close first: their last rows still find the recorder.
         closing.callback(devices.close)
@@ -124,7 +125,7 @@ def open_services(
         dashboards, recent = Dashboards(), RecentRows()
         for watcher in (memory.follow, recorder.watch, dashboards.follow, recent.follow):
             devices.watch(watcher)
-        closing.enter_context(upkeep(recorder, uploads, store, last_seen, devices))
+        closing.enter_context(upkeep(recorder, uploads, store, last_seen, devices, cards))
         open_units(settings, devices)
         replay = RideReplay(Preview(), memory.ride_config)
         library, inspection = Library(LibraryStore(store.database)), Inspection(devices)
@@ -225,12 +226,12 @@ def make_bike_numbers(store: Store, memory: UnitMemory, tuning: Tuning) -> BikeN
     return BikeNumbers(store, memory.ride_config, tuning.parameters, certified)
 
 
-def make_uploads(settings: Settings, store: Store) -> Uploads:
-    """What becomes of files: they are read in processes of their own."""
+def make_uploads(settings: Settings, store: Store, judge: Callable[[Ride], None]) -> Uploads:
+    """What becomes of files: they are read in processes of their own, and their rides judged."""
     limit = UploadSettings(length_max=settings.upload_bytes_max)
     readers = Readers()
     quick = partial(readers.read, wall_s=QUICK_S)
-    return Uploads(store, limit, quick, readers.read, readers.stop, readers.unpack)
+    return Uploads(store, limit, quick, readers.read, readers.stop, readers.unpack, judge)
 
 
 def check(settings: Settings) -> None:
@@ -252,12 +253,18 @@ def make_data_folder(folder: Path) -> None:
 
 
 def upkeep(
-    recorder: Recorder, uploads: Uploads, store: Store, last_seen: LastSeen, devices: Devices
+    recorder: Recorder,
+    uploads: Uploads,
+    store: Store,
+    last_seen: LastSeen,
+    devices: Devices,
+    cards: RideCards,
 ) -> contextlib.AbstractContextManager[None]:
     """What is done beside the server: tidying up, and what is kept of each ride."""
     return every_second(
         housekeeping=partial(tidy, recorder, uploads, store, last_seen, devices),
-        cards=RideCards(store).tick,
+        figures=RideFigures(store).tick,
+        cards=cards.tick,
         zeros=RideZeros(store).tick,
         calibrations=JobDates(CalibrationStore(store)).tick,
     )

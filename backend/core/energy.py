@@ -117,22 +117,21 @@ def weighted_sum(values: Values, seconds: Values) -> float:
     return float(np.sum(present))
 
 
-def sample_seconds(times_us: np.ndarray[tuple[int], np.dtype[np.int64]], pause_us: int) -> Values:
-    """How long each sample (n,) holds: until the next one, but never across a pause.
+def sample_seconds(
+    times_us: np.ndarray[tuple[int], np.dtype[np.int64]],
+    breaks: np.ndarray[tuple[int], np.dtype[np.bool_]],
+) -> Values:
+    """How long each sample (n,) holds: until the next one, but never across a break.
 
-    The last sample, and one before a gap longer than pause_us, holds for the usual spacing.
+    breaks: of the steps from row to row (n - 1,). The last sample, and one before a break, holds
+    for the usual spacing.
     """
     if len(times_us) < 2:
         return np.zeros(len(times_us))
-    if int(times_us[-1] - times_us[0]) == pause_us * (len(times_us) - 1):
-        # Regular rows: one number for all of them, whatever the length of the ride.
-        return np.broadcast_to(np.float64(pause_us / 1e6), len(times_us))
     spacing = np.diff(times_us)
-    running = spacing[(spacing > 0) & (spacing <= pause_us)]
+    running = spacing[(spacing > 0) & ~breaks]
     usual = float(np.median(running)) if len(running) else 0.0
-    durations = np.append(spacing, usual).astype(np.float64)
-    durations[durations > pause_us] = usual
-    return np.maximum(durations, 0.0) / 1e6
+    return np.append(np.where(breaks, usual, np.maximum(spacing, 0)), usual) / 1e6
 
 
 def rate_hz(seconds: Values) -> float | None:

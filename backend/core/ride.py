@@ -9,9 +9,13 @@ import numpy as np
 import numpy.typing as npt
 
 from backend.core._generated import MOVING_KMH
+from backend.core.breaks import find_breaks
 from backend.core.channels import ChannelSpec, Counts, Values, channel_to_json
+from backend.core.charge_use import charge_use
 from backend.core.described import described
-from backend.core.device_metadata import DeviceMetadata, Pause, metadata_to_json
+from backend.core.device_metadata import DeviceMetadata, metadata_to_json
+from backend.core.distance import DistanceSource, row_distances
+from backend.core.doubts import Doubt
 from backend.core.energy import (
     BATTERY_POWER,
     MOTOR_POWER,
@@ -25,16 +29,14 @@ from backend.core.filled import Filled
 from backend.core.intake import Intake
 from backend.core.moments import utc
 from backend.core.ride_events import RideEvent, settings_changes
-from backend.core.sphere import great_circle_m
 
 TimesUs = npt.NDArray[np.int64]
 
+SUMMARY_METHOD = 1
+"""Counted up when figures or gaps of the same rows become others: those of every ride are then
+worked out anew."""
 LIVE, DONE, BAD = STATES = ("live", "done", "bad")
 ORIGINS = ("recorded", "imported")
-
-# A break in irregular rows longer than this many usual spacings, and than this time, is a pause.
-PAUSE_SPACINGS = 5
-PAUSE_MIN_US = 10_000_000
 
 
 @dataclass(frozen=True)
@@ -71,6 +73,8 @@ class RideSummary:
     duration_s: float
     moving_s: float | None = None
     distance_km: float | None = None
+    distance_source: DistanceSource | None = None
+    """By what it was found: positions alone where there is neither odometer nor speed."""
     rider_wh: float | None = None
     rider_excluded_s: float | None = None
     motor_wh: float | None = None
@@ -141,7 +145,8 @@ class Ride:
     calls it, None for none. intake: what became of the file's rows and fields, None for what came
     from no file. metadata: what the device that made the file told beside its rows. same_ride_as:
     another device's recording of the same ride. tags: words its rider gave it. place,
-    speed_line_kmh: of its card, once that is made.
+    speed_line_kmh, doubts: of its card, once that is made. accepted_doubts: codes of those that
+    somebody accepted. outdone: a better recording of the same ride counts in its place.
     """
 
     id: int
@@ -173,6 +178,9 @@ class Ride:
     tags: tuple[str, ...] = ()
     place: RidePlace | None = None
     speed_line_kmh: tuple[float | None, ...] = ()
+    doubts: tuple[Doubt, ...] = ()
+    accepted_doubts: tuple[str, ...] = ()
+    outdone: bool = False
 
     @property
     def motor_torque_meaning(self) -> str | None:
@@ -222,9 +230,14 @@ class Ride:
             "object_bytes": self.object_bytes,
             "summary": asdict(self.summary) if self.summary else None,
             "same_ride_as": self.same_ride_as,
+            "outdone": self.outdone,
             "tags": list(self.tags),
             "place": asdict(self.place) if self.place else None,
             "speed_line_kmh": list(self.speed_line_kmh),
+            "doubts": [
+                {**asdict(doubt), "accepted": doubt.code in self.accepted_doubts}
+                for doubt in self.doubts
+            ],
         }
 
 
@@ -244,42 +257,34 @@ def iso_utc(time_us: int) -> str:
     return utc(time_us).isoformat(timespec="milliseconds").replace("+00:00", "Z")
 
 
-def pause_us(times_us: TimesUs, period_us: int | None) -> int:
-    """Longest spacing of rows that still counts as one recording, in microseconds."""
-    if period_us is not None:
-        return period_us
-    usual = float(np.median(np.diff(times_us))) if len(times_us) > 1 else 0.0
-    return max(PAUSE_MIN_US, int(PAUSE_SPACINGS * usual))
-
-
 def find_gaps(
-    times_us: TimesUs,
-    empty: npt.NDArray[np.bool_],
-    period_us: int | None,
-    pauses: Sequence[Pause] = (),
+    times_us: TimesUs, empty: npt.NDArray[np.bool_], breaks: npt.NDArray[np.bool_]
 ) -> tuple[Gap, ...]:
-    """Where samples are missing: pauses in the time, and runs of rows without any sample.
+    """Where samples are missing: breaks in the time, and runs of rows without any sample.
 
-    times_us: int64 (n,). empty: bool (n,), rows in which every channel is missing. pauses: of the
-    device's timer; a break between two rows that one of them covers is a gap however short it is.
+    times_us: int64 (n,). empty: bool (n,), rows in which every channel is missing. breaks: bool
+    (n - 1,), of the steps from row to row; see core.breaks.
     """
     if len(times_us) == 0:
         return ()
-    long = np.diff(times_us) > pause_us(times_us, period_us)
-    for pause in pauses:
-        middle_us = 5e5 * (pause.from_s + pause.to_s)
-        behind = int(np.searchsorted(times_us, middle_us))
-        if 0 < behind < len(times_us):
-            stood_us = times_us[behind] - times_us[behind - 1]
-            long[behind - 1] |= stood_us >= 1e6 * (pause.to_s - pause.from_s) > 0
-    paused = np.flatnonzero(long)
-    gaps = [Gap(float(times_us[i]) / 1e6, float(times_us[i + 1]) / 1e6) for i in paused]
+    gaps = [
+        Gap(float(times_us[i]) / 1e6, float(times_us[i + 1]) / 1e6) for i in np.flatnonzero(breaks)
+    ]
     edges = np.flatnonzero(np.diff(np.concatenate(([False], empty, [False])).astype(np.int8)))
     for start, stop in edges.reshape(-1, 2):
         ends_us = times_us[min(stop, len(times_us) - 1)]
         lost = int(stop - start)
         gaps.append(Gap(float(times_us[start]) / 1e6, float(ends_us) / 1e6, rows_lost=lost))
     return tuple(sorted(gaps, key=lambda gap: gap.from_s))
+
+
+def breaks_at(gaps: Sequence[Gap], times_us: TimesUs) -> npt.NDArray[np.bool_]:
+    """Which steps from row to row (n - 1,) are breaks, of a ride whose gaps are known."""
+    breaks = np.zeros(max(len(times_us) - 1, 0), dtype=bool)
+    middles_us = [5e5 * (gap.from_s + gap.to_s) for gap in gaps if gap.rows_lost is None]
+    at = np.searchsorted(times_us, np.array(middles_us)) - 1
+    breaks[at[(at >= 0) & (at < len(breaks))]] = True
+    return breaks
 
 
 def summarise(
@@ -294,13 +299,17 @@ def summarise(
     seconds: how long each sample holds, float64 (n,), where the times alone do not tell.
     """
     if seconds is None:
-        seconds = sample_seconds(times_us, pause_us(times_us, period_us))
+        seconds = (
+            sample_seconds(times_us, find_breaks(values, times_us))
+            if period_us is None
+            else np.broadcast_to(np.float64(period_us / 1e6), len(times_us))
+        )
     duration_s = float(times_us[-1] - times_us[0]) / 1e6 if len(times_us) else 0.0
     figures: dict[str, float | None] = {}
-    figures |= movement_figures(values, seconds)
-    if "distance_km" not in figures and "latitude_deg" in values and "longitude_deg" in values:
-        positions = values["latitude_deg"], values["longitude_deg"]
-        figures["distance_km"] = track_km(*positions, times_us, pause_us(times_us, period_us))
+    figures |= speed_figures(values.get("speed_kmh"), seconds)
+    distances = row_distances(values, times_us / 1e6, seconds)
+    if distances is not None:
+        figures["distance_km"] = (float(distances.step_m.sum()) + distances.lost_m) / 1000.0
     for owner, channel in (("rider", RIDER_POWER), ("motor", MOTOR_POWER)):
         figures |= power_figures(owner, values.get(channel.name), seconds)
     if BATTERY_POWER.name in values:
@@ -309,47 +318,25 @@ def summarise(
     figures |= crank_figures(values)
     figures["motor_torque_nm_max"] = largest(values.get("motor_torque_nm"))
     figures["motor_temperature_degc_max"] = largest(values.get("motor_temperature_degc"))
-    charge = present(values.get("battery_soc_pct"))
-    if len(charge):
-        figures["battery_soc_pct_used"] = float(charge[0] - charge[-1])
-    return RideSummary(duration_s=duration_s, **figures)
+    charge = values.get("battery_soc_pct")
+    if charge is not None and (use := charge_use(charge, times_us / 1e6)) is not None:
+        figures["battery_soc_pct_used"] = use.used_pct
+    source = distances.source if distances else None
+    return RideSummary(duration_s=duration_s, distance_source=source, **figures)
 
 
-def movement_figures(values: Mapping[str, Values], seconds: Values) -> dict[str, float | None]:
-    """Distance, moving time, speeds. An odometer wins over the integral; the mean is of moving."""
-    speed = values.get("speed_kmh")
-    figures: dict[str, float | None] = {}
-    if speed is not None and np.isfinite(speed).any():
-        moving = speed > MOVING_KMH
-        moving_s = float(np.sum(seconds[moving]))
-        ridden = weighted_sum(speed[moving], seconds[moving])
-        figures |= {
-            "moving_s": moving_s,
-            "distance_km": weighted_sum(speed, seconds) / 3600.0,
-            "speed_kmh_mean": ridden / moving_s if moving_s > 0 else None,
-            "speed_kmh_max": largest(speed),
-        }
-    odometer = present(values.get("distance_m"))
-    if len(odometer):
-        figures["distance_km"] = float(np.max(odometer) - np.min(odometer)) / 1000.0
-    return figures
-
-
-def track_km(
-    latitude_deg: Values, longitude_deg: Values, times_us: TimesUs, break_us: int
-) -> float | None:
-    """Length of a track (n,) over the ground.
-
-    What lies between two positions further apart in time than break_us is not counted: nobody
-    knows the way. None where no two positions follow each other.
-    """
-    valid = np.isfinite(latitude_deg) & np.isfinite(longitude_deg)
-    latitude, longitude = latitude_deg[valid], longitude_deg[valid]
-    follows = np.diff(times_us[valid]) <= break_us
-    if not follows.any():
-        return None
-    steps_m = great_circle_m(latitude[:-1], longitude[:-1], latitude[1:], longitude[1:])
-    return float(np.sum(steps_m[follows])) / 1000.0
+def speed_figures(speed_kmh: Values | None, seconds: Values) -> dict[str, float | None]:
+    """Moving time and speeds; the mean is of moving."""
+    if speed_kmh is None or not np.isfinite(speed_kmh).any():
+        return {}
+    moving = speed_kmh > MOVING_KMH
+    moving_s = float(np.sum(seconds[moving]))
+    ridden = weighted_sum(speed_kmh[moving], seconds[moving])
+    return {
+        "moving_s": moving_s,
+        "speed_kmh_mean": ridden / moving_s if moving_s > 0 else None,
+        "speed_kmh_max": largest(speed_kmh),
+    }
 
 
 def power_figures(owner: str, power_w: Values | None, seconds: Values) -> dict[str, float | None]:

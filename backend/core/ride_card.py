@@ -10,9 +10,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from backend.core.channels import Values
+from backend.core.doubts import Doubt
 from backend.core.sphere import great_circle_m
 
-CARD_METHOD = 1
+CARD_METHOD = 2
 LINE_POINTS = 64
 # The line is in steps of half a km/h: it is 26 pixels high.
 LINE_STEP_KMH = 0.5
@@ -37,6 +38,7 @@ class RideCard:
     notable: int = 0
     begin_deg: tuple[float, float] | None = None
     is_loop: bool | None = None
+    doubts: tuple[Doubt, ...] = ()
 
 
 def speed_line(start_s: Values, speed_kmh: Values | None) -> bytes:

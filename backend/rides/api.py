@@ -67,7 +67,7 @@ def get_ride(ride_id: RideId, rides: TheRides) -> Any:
 
 @router.patch("/{ride_id}", operation_id="patch_ride", response_model=Ride)
 def patch_ride(ride_id: RideId, body: RidePatch, rides: TheRides) -> Any:
-    """Changes name and notes; what was measured cannot be changed."""
+    """Changes name, notes, tags and what is accepted; nothing that was measured."""
     return rides.patch(ride_id, **body.model_dump(exclude_unset=True))
 
 

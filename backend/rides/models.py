@@ -9,6 +9,7 @@ from pydantic import Field
 
 from backend.core.api_models import Answer, RequestBody
 from backend.core.device_metadata import DeviceSession, Instrument, Lap, Pause
+from backend.core.doubts import Doubt
 from backend.core.filled import Filled
 from backend.core.intake import Intake
 from backend.core.ride import Gap, RidePlace, RideSummary
@@ -92,12 +93,19 @@ class Ride(Answer):
     same_ride_as: int | None = Field(
         description="Another device's recording of the same ride, which is kept beside it."
     )
+    outdone: bool = Field(
+        description="A better recording of the same ride counts in sums and records in its place."
+    )
     tags: list[str]
     place: RidePlace | None = Field(
         description="Null without positions, and until a moment after the ride came."
     )
     speed_line_kmh: list[float | None] = Field(
         description="Mean speeds over 64 equal times; empty without a speed."
+    )
+    doubts: list[Doubt] = Field(
+        description="Figures that disagree or cannot be. The ride is in no record until somebody "
+        "accepts them. Empty until a moment after the ride came."
     )
 
 
@@ -111,6 +119,9 @@ class RidePatch(RequestBody):
     name: str | None = Field(default=None, max_length=200)
     notes: str | None = Field(default=None, max_length=20_000)
     tags: list[str] | None = Field(default=None, max_length=100, description="All of them, anew.")
+    doubts_accepted: bool | None = Field(
+        default=None, description="Whether somebody accepts all that is doubtful of the ride."
+    )
 
 
 class SeriesChannel(Answer):

@@ -9,11 +9,9 @@ from functools import cached_property
 import numpy as np
 
 from backend.core.channels import Values
+from backend.core.distance import RowDistances, row_distances
 from backend.core.ride import Ride
-from backend.rides.insight.distance import RowDistances, row_distances
 from backend.store import RideReader, Store
-
-DISTANCE_CHANNELS = ("speed_kmh", "distance_m")
 
 
 @dataclass(frozen=True)
@@ -40,7 +38,7 @@ class RideColumns:
 
     @cached_property
     def distances(self) -> RowDistances | None:
-        """Of rides that were asked for WAY."""
+        """Of rides that were asked for DISTANCE_CHANNELS."""
         return row_distances(self.values, self.start_s, self.seconds)
 
 

@@ -82,9 +82,10 @@ class Rides:
         name: str | None = None,
         notes: str | None = None,
         tags: Sequence[str] | None = None,
+        doubts_accepted: bool | None = None,
     ) -> dict[str, object]:
         """Change what people wrote about a ride. Raises NotFound, InvalidRequest."""
-        return self._as_json(self._store.rides.patch(ride_id, name, notes, tags))
+        return self._as_json(self._store.rides.patch(ride_id, name, notes, tags, doubts_accepted))
 
     def delete(self, ride_id: int) -> None:
         """Delete a ride; with the last ride of an original file this goes too, on the disk as well.

@@ -19,6 +19,7 @@ from sqlalchemy import Connection, delete, insert, or_, select, update
 
 from backend.errors import StoreError
 from backend.store.discard import note_discarded, with_sidecar
+from backend.store.logbook.derived import settle_twins
 from backend.store.objects import RIDE_SUFFIX, SIDECAR_SUFFIX, Objects
 from backend.store.ride_table import remove_ride
 from backend.store.sql import tables as t
@@ -116,8 +117,11 @@ def forget_ride(connection: Connection, ride_id: int, now_us: int) -> None:
         update(t.upload).where(t.upload.c.duplicate_of == ride_id).values(duplicate_of=None)
     )
     twins = t.ride.c.same_ride_as == ride_id
+    left = connection.execute(select(t.ride.c.id).where(twins)).scalars().all()
     connection.execute(update(t.ride).where(twins).values(same_ride_as=None))
     remove_ride(connection, ride_id)
+    for twin_id in left:
+        settle_twins(connection, twin_id)
     for upload_id in uploads:
         rides = select(link.id).where(link.upload_id == upload_id).limit(1)
         if connection.execute(rides).first() is None:

@@ -11,8 +11,9 @@ from itertools import pairwise
 
 import numpy as np
 
+from backend.core.breaks import find_breaks
 from backend.core.channels import ChannelSpec, Counts, Values
-from backend.core.energy import FACTORS, derivable, derive
+from backend.core.energy import FACTORS, derivable, derive, sample_seconds
 from backend.core.filled import filled_mask, filled_seconds
 from backend.core.pyramid import STEPS, Level, first_level, reduce_groups
 from backend.core.ride import Gap, Ride, RideSummary, find_gaps, summarise
@@ -50,8 +51,11 @@ def digest(file: RowSource, ride: Ride) -> Digest:
         pairs[channel.name] = pyramid(counts)
     for channel in columns.derived:
         pairs[channel.name] = pyramid(columns.counts(channel))
-    seconds = None
-    if ride.filled and ride.period_us is not None:
+    seconds, breaks = None, np.zeros(max(len(times) - 1, 0), dtype=bool)
+    if ride.period_us is None:
+        breaks = find_breaks(columns, times, ride.metadata.pauses)
+        seconds = sample_seconds(times, breaks)
+    elif ride.filled:
         seconds = filled_seconds(ride.filled, empty, ride.period_us)
         empty &= ~filled_mask(ride.filled, file.row_count, ride.period_us)
     offered = ride.channels + columns.derived
@@ -66,7 +70,7 @@ def digest(file: RowSource, ride: Ride) -> Digest:
             for depth, step in enumerate(STEPS)
         ),
         summary=summarise(columns, times, ride.period_us, seconds),
-        gaps=find_gaps(times, empty, ride.period_us, ride.metadata.pauses),
+        gaps=find_gaps(times, empty, breaks),
         events=tuple(merged(events, ride.events, SAME_EVENT_S)),
         rows_empty=int(np.sum(empty)),
     )

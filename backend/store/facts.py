@@ -114,6 +114,7 @@ def stored_ride(
         intake=from_members(Intake, facts["intake"]) if facts.get("intake") else None,
         metadata=metadata_from_json(facts.get("noted")),
         tags=clean_tags(sidecar.get("tags", ())),
+        accepted_doubts=tuple(sidecar.get("accepted_doubts", ())),
     )
     return StoredRide(
         ride=ride,

@@ -14,11 +14,12 @@ from typing import Protocol
 
 import numpy as np
 
+from backend.core.breaks import DISTANCE, LATITUDE, LONGITUDE, Mask, find_breaks
 from backend.core.channels import ChannelSpec, Counts, Values
 from backend.core.energy import FACTORS, derive, sample_seconds
 from backend.core.filled import filled_seconds
 from backend.core.pyramid import STEPS, Level
-from backend.core.ride import Ride, RideRows, TimesUs, pause_us
+from backend.core.ride import DONE, Ride, RideRows, TimesUs, breaks_at
 from backend.errors import StoreError
 from backend.store.soundness import CHANGED, damaged_samples
 from backend.store.sql.blobs import Rows16
@@ -69,6 +70,11 @@ class RideReader:
         self._derived = {channel.name: channel for channel in ride.derived}
 
     @property
+    def source(self) -> RowSource:
+        """Where the rows are."""
+        return self._source
+
+    @property
     def row_count(self) -> int:
         """Rows that can be read."""
         return self._source.row_count
@@ -117,13 +123,22 @@ class RideReader:
         """How long the sample of each row (n,) holds; see core.filled, core.energy."""
         ride, count = self.ride, self.row_count
         if ride.period_us is None:
-            times_us = self.times_us(0, count)
-            return sample_seconds(times_us, pause_us(times_us, None))
+            return sample_seconds(self.times_us(0, count), self.breaks())
         if not ride.filled:
             return np.broadcast_to(np.float64(ride.period_us / 1e6), (count,))
         speed = self._recorded["speed_kmh"]
         empty = self.counts([speed.name], 0, count)[speed.name] == speed.missing
         return filled_seconds(ride.filled, empty, ride.period_us)
+
+    def breaks(self) -> Mask:
+        """Which steps from row to row (n - 1,) are breaks in which nobody knows what was."""
+        ride, count = self.ride, self.row_count
+        if ride.period_us is not None:
+            return np.zeros(max(count - 1, 0), dtype=bool)
+        times_us = self.times_us(0, count)
+        if ride.state == DONE:
+            return breaks_at(ride.gaps, times_us)
+        return find_breaks(self.values((DISTANCE, LATITUDE, LONGITUDE)), times_us)
 
     def chunks(self, names: Sequence[str], rows: int) -> Iterator[RideRows]:
         """The whole ride, `rows` rows at a time."""

@@ -12,6 +12,7 @@ from sqlalchemy import Connection, Row, Select, delete, insert, select, update
 
 from backend.core.channels import ChannelSpec, channel_to_json
 from backend.core.device_metadata import metadata_from_json, metadata_to_json
+from backend.core.doubts import Doubt
 from backend.core.energy import derivable
 from backend.core.filled import Filled
 from backend.core.intake import Intake
@@ -19,6 +20,7 @@ from backend.core.ride import (
     BAD,
     ORIGINS,
     STATES,
+    SUMMARY_METHOD,
     Gap,
     Ride,
     RideContext,
@@ -39,10 +41,12 @@ from backend.store.sql.sound_rows import NOT_AS_WRITTEN, is_sound
 
 NAME_LENGTH_MAX = 200
 # Columns that a ride keeps when its rows become others.
-STAYS = frozenset({"state", "origin", "name", "notes", "created_us", "row_count", "gaps"})
+STAYS = frozenset(
+    {"state", "origin", "name", "notes", "created_us", "row_count", "gaps", "accepted_doubts"}
+)
 # The largest whole number SQL holds.
 INTEGER_MAX = 2**63 - 1
-CARD = ("place", "country", "zone", "is_loop", "speed_line")
+CARD = ("place", "country", "zone", "is_loop", "speed_line", "doubts")
 
 
 def full_ride_query() -> Select[Any]:
@@ -52,7 +56,8 @@ def full_ride_query() -> Select[Any]:
             t.ride,
             t.upload.c.token.label("upload_token"),
             t.upload.c.sha256.label("source_sha256"),
-            *(column for column in t.ride_summary.c if column.name != "ride_id"),
+            *(t.ride_summary.c[field.name] for field in fields(RideSummary)),
+            t.ride_summary.c.outdone,
             *(t.ride_card.c[name] for name in CARD),
         )
         .outerjoin(t.ride_summary, t.ride_summary.c.ride_id == t.ride.c.id)
@@ -173,6 +178,9 @@ def sound_ride(row: Row[Any], tags: tuple[str, ...]) -> Ride:
         tags=tags,
         place=None if place == RidePlace() else place,
         speed_line_kmh=line_kmh(body["speed_line"] or b""),
+        doubts=tuple(Doubt(**doubt) for doubt in body["doubts"] or ()),
+        accepted_doubts=tuple(body["accepted_doubts"]),
+        outdone=bool(body["outdone"]),
     )
 
 
@@ -226,6 +234,7 @@ def row_of(ride: Ride) -> dict[str, object]:
         "intake": asdict(ride.intake) if ride.intake else None,
         "noted": metadata_to_json(ride.metadata),
         "same_ride_as": ride.same_ride_as,
+        "accepted_doubts": list(ride.accepted_doubts),
     }
 
 
@@ -305,10 +314,7 @@ def finish_row(connection: Connection, ride_id: int, written: WrittenObject) -> 
             completeness=written.completeness,
         )
     )
-    connection.execute(delete(t.ride_summary).where(t.ride_summary.c.ride_id == ride_id))
-    connection.execute(
-        insert(t.ride_summary).values(ride_id=ride_id, **asdict(written.digest.summary))
-    )
+    save_summary(connection, ride_id, written.digest.summary)
     connection.execute(delete(t.ride_lod).where(t.ride_lod.c.ride_id == ride_id))
     connection.execute(
         insert(t.ride_lod),
@@ -317,6 +323,13 @@ def finish_row(connection: Connection, ride_id: int, written: WrittenObject) -> 
             for level in written.digest.levels
         ],
     )
+
+
+def save_summary(connection: Connection, ride_id: int, summary: RideSummary) -> None:
+    """Keep the figures of a ride, by today's method."""
+    connection.execute(delete(t.ride_summary).where(t.ride_summary.c.ride_id == ride_id))
+    values = {"ride_id": ride_id, "method": SUMMARY_METHOD, **asdict(summary)}
+    connection.execute(insert(t.ride_summary).values(values))
 
 
 def refill_row(

@@ -15,14 +15,14 @@ import time
 from collections.abc import Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 from sqlalchemy import Connection, case, delete, insert, select, update
 
 from backend.core.channels import ChannelSpec
 from backend.core.pyramid import Level
-from backend.core.ride import BAD, DONE, LIVE, Ride, RideContext, RideRows
+from backend.core.ride import BAD, DONE, LIVE, SUMMARY_METHOD, Ride, RideContext, RideRows
 from backend.core.ride_events import RideEvent
 from backend.core.ride_tags import clean_tags
 from backend.errors import Conflict, InvalidRequest, NotFound, StoreError
@@ -35,12 +35,13 @@ from backend.store.deletion import (
     is_needed,
     join_source,
 )
+from backend.store.digest import Digest, digest
 from backend.store.discard import note_discarded, with_sidecar
 from backend.store.entries import Entries
 from backend.store.filling import Filling, facts_before, filled_chunks, grown
 from backend.store.finish import RowsInMemory, drafted, write_object
 from backend.store.logbook.book import set_tags
-from backend.store.logbook.derived import note_words
+from backend.store.logbook.derived import accept_doubts, note_words
 from backend.store.logbook.find import RidePage, Sought, page_of
 from backend.store.marks import add_events
 from backend.store.objects import Objects
@@ -56,6 +57,7 @@ from backend.store.ride_table import (
     ride_row,
     rides_by_ids,
     row_of,
+    save_summary,
     upload_file,
     upload_key,
 )
@@ -344,6 +346,44 @@ class RideStore:
         self._entries.suspect(rides)
         return rides[0]
 
+    def outdated(self, limit: int) -> list[int]:
+        """Finished rides whose figures are by an older method, newest first."""
+        query = (
+            select(t.ride.c.id)
+            .join(t.ride_summary, t.ride_summary.c.ride_id == t.ride.c.id)
+            .where(t.ride.c.state == DONE, t.ride_summary.c.method < SUMMARY_METHOD)
+            .order_by(t.ride.c.started_us.desc())
+            .limit(limit)
+        )
+        return self._database.read(lambda c: list(c.execute(query).scalars()))
+
+    def digest_anew(self, ride: Ride) -> Digest:
+        """Figures and gaps of a finished ride by today's method. Raises ObjectDamaged."""
+        reader = self.reader(ride.id)
+        return digest(reader.source, reader.ride)
+
+    def save_figures(self, ride: Ride, found: Digest | None) -> None:
+        """Keep what was found of a ride's rows, unless these are others by now; its card is due
+        then. None: nothing can be found, and nothing is looked for again. Raises StoreError."""
+        mine = (t.ride.c.id == ride.id) & (t.ride.c.object_key == ride.object_key)
+
+        def work(connection: Connection) -> None:
+            if connection.execute(select(t.ride.c.id).where(mine)).first() is None:
+                return
+            if found is None:
+                unread = update(t.ride_summary).where(t.ride_summary.c.ride_id == ride.id)
+                connection.execute(unread.values(method=SUMMARY_METHOD))
+                return
+            gaps = [asdict(gap) for gap in found.gaps]
+            connection.execute(update(t.ride).where(mine).values(gaps=gaps))
+            save_summary(connection, ride.id, found.summary)
+            card = update(t.ride_card).where(t.ride_card.c.ride_id == ride.id)
+            connection.execute(card.values(method=0))
+
+        self._database.write(work)
+        self._readers.forget(ride.id)
+        self.finishes += 1
+
     def list(
         self, sought: Sought | None = None, limit: int = 50, cursor: str | None = None
     ) -> RidePage:
@@ -359,8 +399,12 @@ class RideStore:
         name: str | None = None,
         notes: str | None = None,
         tags: Sequence[str] | None = None,
+        doubts_accepted: bool | None = None,
     ) -> Ride:
-        """Change what people wrote about a ride. Raises NotFound, InvalidRequest."""
+        """Change what people wrote about a ride. Raises NotFound, InvalidRequest.
+
+        doubts_accepted: all that it has now, or none.
+        """
         cleaned = None if tags is None else clean_tags(tags)
         # PostgreSQL has no text with a NUL in it.
         words = {"name": name, "notes": notes}
@@ -370,7 +414,7 @@ class RideStore:
                 f"A ride's name has at most {NAME_LENGTH_MAX} characters, "
                 f"its notes {NOTES_LENGTH_MAX}."
             )
-        self.get(ride_id)
+        ride = self.get(ride_id)
 
         def work(connection: Connection) -> None:
             if changes:
@@ -378,9 +422,11 @@ class RideStore:
                 note_words(connection, ride_id)
             if cleaned is not None:
                 set_tags(connection, ride_id, cleaned)
+            if doubts_accepted is not None:
+                accept_doubts(connection, ride, doubts_accepted)
             save_words(connection, self._objects, ride_id, even_if_empty=True)
 
-        if changes or cleaned is not None:
+        if changes or cleaned is not None or doubts_accepted is not None:
             self._database.write(work)
         self._readers.forget(ride_id)
         return self.get(ride_id)

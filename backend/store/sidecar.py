@@ -1,6 +1,7 @@
 """What a person wrote about a ride, beside its object: `rides/ab/<sha256>.json`.
 
-    {"schema_version": 1, "name": "...", "notes": "...", "tags": ["..."]}
+    {"schema_version": 1, "name": "...", "notes": "...", "tags": ["..."],
+     "accepted_doubts": ["..."]}
 
 It is written in the transaction that changes the ride, so that SQL and file say the same, and only
 for rides that have something to say.
@@ -29,8 +30,9 @@ def read_sidecar(objects: Objects, ride_key: str) -> dict[str, Any]:
     """The sidecar of a ride's object, empty if it has none. Raises StoreError if it is damaged."""
     key = sidecar_key(ride_key)
     body = objects.read_json(key) or {}
-    if not all(is_text(body[name]) for name in WORDS if name in body) or not (
-        isinstance(tags := body.get("tags", []), list) and all(map(is_text, tags))
+    lists = (body.get("tags", []), body.get("accepted_doubts", []))
+    if not all(is_text(body[name]) for name in WORDS if name in body) or not all(
+        isinstance(one, list) and all(map(is_text, one)) for one in lists
     ):
         raise StoreError(f"{key} cannot be read: it is no sidecar of a ride.")
     return body
@@ -50,6 +52,7 @@ def write_sidecar(
     name: str,
     notes: str,
     tags: Sequence[str],
+    accepted_doubts: Sequence[str] = (),
 ) -> None:
     """Write what a person wrote; what else is there stays. Raises StoreError."""
     try:
@@ -58,6 +61,7 @@ def write_sidecar(
         LOG.warning("%s It is written anew.", error.message)
         body = {}
     body |= {"schema_version": SIDECAR_VERSION, "name": name, "notes": notes, "tags": list(tags)}
+    body |= {"accepted_doubts": list(accepted_doubts)}
     objects.publish_json(sidecar_key(ride_key), body)
 
 
@@ -65,8 +69,11 @@ def save_words(
     connection: Connection, objects: Objects, ride_id: int, even_if_empty: bool = False
 ) -> None:
     """Write a finished ride's sidecar as the transaction has it, when there is something to say."""
-    columns = (t.ride.c.name, t.ride.c.notes, t.ride.c.object_key)
+    columns = (t.ride.c.name, t.ride.c.notes, t.ride.c.object_key, t.ride.c.accepted_doubts)
     row = connection.execute(select(*columns).where(t.ride.c.id == ride_id)).first()
     tags = tags_of(connection, [ride_id]).get(ride_id, ())
-    if row is not None and row.object_key and (row.name or row.notes or tags or even_if_empty):
-        write_sidecar(objects, row.object_key, row.name, row.notes, tags)
+    if row is None or not row.object_key:
+        return
+    if row.name or row.notes or tags or row.accepted_doubts or even_if_empty:
+        accepted = row.accepted_doubts
+        write_sidecar(objects, row.object_key, row.name, row.notes, tags, accepted)

@@ -54,6 +54,7 @@ class Upload:
 
     ride_ids: the rides it became; of a duplicate, the ride that was there before. part_of: the
     container it is within. parts: of a container, how many files within became what.
+    doubtful_rides: how many of its rides have doubts that nobody accepted.
     """
 
     id: str
@@ -73,6 +74,7 @@ class Upload:
     ride_ids: tuple[int, ...]
     part_of: str | None = None
     parts: UploadParts | None = None
+    doubtful_rides: int = 0
 
     @property
     def expires_at(self) -> str | None:
@@ -410,9 +412,13 @@ def uploads_of(connection: Connection, rows: Sequence[Row[Any]]) -> tuple[Upload
         wholes = {row.part_of for row in some} - {None}
         query = select(t.upload.c.id, t.upload.c.token).where(t.upload.c.id.in_(wholes))
         tokens: dict[int, str] = {row.id: row.token for row in connection.execute(query)}
+        doubtful = doubtful_rides(connection, set().union(*rides.values()))
         for row in some:
-            mine = tuple(sorted(rides.get(row.id, ())))
-            uploads.append(upload_from_row(row, mine, tokens.get(row.part_of), parts.get(row.id)))
+            mine = rides.get(row.id, set())
+            upload = upload_from_row(
+                row, tuple(sorted(mine)), tokens.get(row.part_of), parts.get(row.id)
+            )
+            uploads.append(replace(upload, doubtful_rides=len(mine & doubtful)))
     return tuple(uploads)
 
 
@@ -431,6 +437,13 @@ def rides_by(connection: Connection, rows: Sequence[Row[Any]]) -> dict[int, set[
         if row.duplicate_of in here:
             ride_ids.setdefault(row.id, set()).add(row.duplicate_of)
     return ride_ids
+
+
+def doubtful_rides(connection: Connection, ride_ids: set[int]) -> set[int]:
+    """Those of some rides that have doubts which nobody accepted."""
+    card = t.ride_card.c
+    query = select(card.ride_id).where(card.ride_id.in_(ride_ids), card.open_doubts > 0)
+    return set(connection.execute(query).scalars())
 
 
 def parts_by(connection: Connection, keys: Sequence[int]) -> dict[int, UploadParts]:

@@ -14,10 +14,11 @@ import numpy as np
 
 from backend.core.channels import Values
 from backend.core.described import described
+from backend.core.distance import row_distances
 from backend.core.energy import DEMANDED
 from backend.core.ride import RideSummary, TimesUs, summarise
-from backend.rides.insight.distance import climb_of, row_distances
 from backend.rides.insight.energy_split import energy_shares
+from backend.rides.insight.gradient import climb_of
 
 DISTANCE_KM_MIN = 0.01
 """Below that, work by distance is the work of a start."""

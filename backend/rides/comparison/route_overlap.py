@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from backend.core.breaks import Mask, apart
 from backend.core.channels import Values
 from backend.core.described import described
-from backend.core.ride import PAUSE_MIN_US
 from backend.core.sphere import EARTH_M
 
 NEAR_M = 30.0
@@ -24,11 +24,13 @@ CELL_M = 4.0
 
 @dataclass(frozen=True)
 class Positions:
-    """Of rows (n,), missing as NaN. at_m: way since the window's start, None where not known."""
+    """Of rows (n,), missing as NaN. breaks: of the steps from row to row (n - 1,). at_m: distance
+    since the window's start, None where not known."""
 
     latitude_deg: Values
     longitude_deg: Values
     start_s: Values
+    breaks: Mask
     at_m: Values | None
 
 
@@ -89,8 +91,9 @@ def walked(side: Positions, middle_deg: float, first_deg: float) -> Walked | Non
     plane = np.radians(np.column_stack((around * narrow, side.latitude_deg[valid] - middle_deg)))
     points = plane * EARTH_M
     at_m = np.zeros(len(valid)) if side.at_m is None else side.at_m[valid]
-    follows = np.diff(side.start_s[valid]) * 1e6 <= PAUSE_MIN_US
-    step = np.where(follows, np.hypot(*np.diff(points, axis=0).T), 0.0)
+    step = np.where(
+        ~apart(valid, side.start_s, side.breaks), np.hypot(*np.diff(points, axis=0).T), 0.0
+    )
     distance_m = np.append(0.0, np.cumsum(step))
     if distance_m[-1] <= 0.0:
         return None

@@ -15,6 +15,7 @@ from typing import Any, Literal
 import numpy as np
 
 from backend.core.channels import ChannelSpec, Values
+from backend.core.distance import DISTANCE_CHANNELS
 from backend.core.energy import (
     DEMANDED,
     MOTOR_TORQUE,
@@ -30,7 +31,7 @@ from backend.rides.comparison.route_overlap import Positions, route_overlap
 from backend.rides.comparison.settings_difference import Part, settings_difference
 from backend.rides.insight.crank import CrankTorque
 from backend.rides.insight.service import ALTITUDE, ANGLE, CADENCE, POWERS, TORQUE, crank_of_ride
-from backend.rides.rows import DISTANCE_CHANNELS, RideColumns, Window, columns_from
+from backend.rides.rows import RideColumns, Window, columns_from
 from backend.rides.settings_in_force import ConfigOf
 from backend.rides.traces.trace import PIXELS_MAX, row_window
 from backend.store import RideReader, Store
@@ -139,7 +140,7 @@ class RideComparison:
                 }
                 for name in {**one.channels, **other.channels}
             ],
-            **ways(*rows),
+            **shared_route(sides, rows),
             "settings": settings_difference(self._config_of, one.part, other.part),
         }
 
@@ -209,7 +210,7 @@ def require_laid(side: Side, by: By) -> Laid:
     """Rows on an axis. Raises InvalidRequest (`no_axis`) where nothing tells it."""
     laid = side.laid(by)
     if laid is None:
-        message = f"Ride {side.ride.id} has no speed and no way: it cannot be drawn over {by}."
+        message = f"Ride {side.ride.id} has no speed and no distance: it cannot be drawn over {by}."
         raise InvalidRequest(message, fields=[FieldError("by", "no_axis", message)])
     return laid
 
@@ -221,27 +222,27 @@ def stretch(side: Side, rows: RideColumns) -> Stretch:
     return Stretch(rows.values, times_us, side.reader.period_us, rows.seconds, meaning)
 
 
-def ways(a: RideColumns, b: RideColumns) -> dict[str, Any]:
+def shared_route(sides: tuple[Side, Side], columns: Sequence[RideColumns]) -> dict[str, Any]:
     """Whether both took the same route, or why that is unknown: which has no positions."""
-    placed = [all(rows[name] is not None for name in PLACES) for rows in (a, b)]
+    placed = [all(rows[name] is not None for name in PLACES) for rows in columns]
     if not all(placed):
         return {
             "route_overlap": None,
             "no_route": "neither" if not any(placed) else "ab"[placed[0]],
         }
-    comparison = route_overlap(*(positions(rows) for rows in (a, b)))
+    comparison = route_overlap(*map(positions, sides, columns))
     return {
         "route_overlap": asdict(comparison) if comparison else None,
         "no_route": None if comparison else "too_few",
     }
 
 
-def positions(rows: RideColumns) -> Positions:
+def positions(side: Side, rows: RideColumns) -> Positions:
     """Where a window's rows were."""
     latitude, longitude = (rows.values[name] for name in PLACES)
-    return Positions(
-        latitude, longitude, rows.start_s, rows.distances.at_m if rows.distances else None
-    )
+    breaks = side.reader.breaks()[side.start : side.stop - 1]
+    at_m = rows.distances.at_m if rows.distances else None
+    return Positions(latitude, longitude, rows.start_s, breaks, at_m)
 
 
 def chosen(sides: tuple[Side, Side], channels: Sequence[str] | None) -> list[str]:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from backend.core.channels import Values
+from backend.core.distance import row_distances
 from backend.core.energy import KMH_PER_MS, rate_hz
 from backend.core.sphere import EARTH_M
 from backend.core.statistics import MEDIAN_TO_MEAN, robust_deviation
 from backend.rides.diagnosis.finding import WARNING, DiagnosisFinding, Evidence
-from backend.rides.insight.distance import row_distances
 
 SPEED, CADENCE, TORQUE, ODOMETER = "speed_kmh", "cadence_rpm", "rider_torque_nm", "distance_m"
 LATITUDE, LONGITUDE = "latitude_deg", "longitude_deg"

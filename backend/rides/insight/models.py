@@ -8,11 +8,10 @@ from pydantic import Field
 
 from backend.core.api_models import Answer
 from backend.rides.diagnosis.finding import DiagnosisCheck, Severity
-from backend.rides.insight.distance import Climb
+from backend.rides.insight.charge import Charge, NoRange
 from backend.rides.insight.effort import Distribution, LapFigures
+from backend.rides.insight.gradient import Climb
 from backend.rides.insight.power_curve import BestMean
-
-NoRange = Literal["no_charge", "no_distance", "short_way", "charged", "little_used"]
 
 
 class EnergyShare(Answer):
@@ -40,21 +39,6 @@ class GradientEnergy(EnergyShare):
     to_pct: float | None
 
 
-class Charge(Answer):
-    """Charge used, and how far the rest would have gone on a ride like this one.
-
-    The band is of the reading's step, and of the thirds of the way that took most and least.
-    """
-
-    soc_pct_first: float
-    soc_pct_last: float
-    used_pct: float
-    step_pct: float = Field(description="The finest change of the reading.")
-    range_km: float | None
-    range_km_least: float | None
-    range_km_most: float | None = Field(description="Null also where a third took nothing.")
-
-
 class RideEnergy(Answer):
     ride_id: int
     total: EnergyShare
@@ -67,7 +51,9 @@ class RideEnergy(Answer):
     gradient_unknown_s: float | None
     climb: Climb | None
     charge: Charge | None
-    range_refused: NoRange | None = Field(description="Why there is no range; null with one.")
+    range_refused: Literal["no_charge"] | NoRange | None = Field(
+        description="Why there is no range; null with one."
+    )
 
 
 class RideEffort(Answer):

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from backend.core.distance import DISTANCE_CHANNELS
 from backend.core.energy import (
     BATTERY_POWER,
     DELIVERED,
@@ -19,11 +20,11 @@ from backend.core.energy import (
 from backend.rides.insight import effort
 from backend.rides.insight.charge import Charge, charge_of
 from backend.rides.insight.crank import CrankTorque, crank_torque, gain_map
-from backend.rides.insight.distance import climb_of, gradient_pct
 from backend.rides.insight.effort import MEANS, LapFigures, lap_figures
 from backend.rides.insight.energy_split import GRADIENT_EDGES_PCT, by_gradient, energy_shares
+from backend.rides.insight.gradient import climb_of, gradient_pct
 from backend.rides.insight.power_curve import power_curve
-from backend.rides.rows import DISTANCE_CHANNELS, RideColumns, columns_of
+from backend.rides.rows import RideColumns, columns_of
 from backend.rides.settings_in_force import ConfigOf, Stretch, all_through, source_of, stretches
 from backend.store import Store
 
@@ -56,7 +57,7 @@ class RideEnergy:
         soc = ride[SOC]
         charge = None
         if soc is not None:
-            charge = charge_of(soc, ride[BATTERY_POWER.name], ride.seconds, step_m)
+            charge = charge_of(soc, ride[BATTERY_POWER.name], ride.start_s, ride.seconds, step_m)
         return {
             "ride_id": ride_id,
             "total": asdict(total),
@@ -66,7 +67,7 @@ class RideEnergy:
             "gradients": gradients,
             "gradient_unknown_s": unknown_s,
             "climb": asdict(climb) if climb else None,
-            "charge": asdict(charge) if charge else None,
+            "charge": charge,
             "range_refused": refused(charge),
         }
 

@@ -1,4 +1,4 @@
-"""Makes the cards of rides: what is kept beside each ride, worked out in the background.
+"""Makes figures and cards of rides: what is kept beside each, worked out in the background.
 
 Of new rides, of old ones, and anew by a newer method. Whatever is wrong with a ride stops no other.
 """
@@ -8,18 +8,20 @@ from __future__ import annotations
 import logging
 import time
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TypeVar
 
+from backend.core.distance import DISTANCE_CHANNELS
+from backend.core.doubts import Evidence, doubts_of
 from backend.core.energy import RIDER_POWER
-from backend.core.ride import Ride, RidePlace
+from backend.core.ride import Ride, RidePlace, RideSummary
 from backend.core.ride_card import BEST_S, RideCard, ends_of, speed_line
 from backend.core.ride_events import FAULT_SET, MARK
 from backend.errors import NotFound, SpindleError
-from backend.rides.insight.distance import climb_of
+from backend.rides.insight.gradient import climb_of
 from backend.rides.insight.power_curve import power_curve
 from backend.rides.logbook.towns import Gazetteer
-from backend.rides.rows import DISTANCE_CHANNELS, RideColumns, columns_of
+from backend.rides.rows import RideColumns, columns_of
 from backend.store import Store
 
 LOG = logging.getLogger(__name__)
@@ -73,7 +75,19 @@ def made_or(empty: Made, name: str, ride: Ride, make: Callable[[], Made]) -> Mad
     return empty
 
 
-CHANNELS = (*DISTANCE_CHANNELS, "altitude_m", "latitude_deg", "longitude_deg", RIDER_POWER.name)
+class RideFigures(DueRides):
+    """The rides whose figures an older version worked out in another way."""
+
+    def __init__(self, store: Store) -> None:
+        super().__init__(store, store.rides.outdated)
+
+    def make(self, ride: Ride) -> None:
+        """Figures and gaps of its rows; what cannot be read keeps those that it has."""
+        found = made_or(None, "summary", ride, lambda: self._store.rides.digest_anew(ride))
+        self._store.rides.save_figures(ride, found)
+
+
+CHANNELS = (*DISTANCE_CHANNELS, "altitude_m", RIDER_POWER.name)
 # A town further away is not where the ride was; its time zone still is.
 TOWN_MAX_M = 20_000.0
 ZONE_MAX_M = 300_000.0
@@ -114,13 +128,34 @@ def card_of(rows: RideColumns) -> RideCard:
     climb = (
         None if heights is None or distances is None else climb_of(heights, distances, rows.start_s)
     )
+    ascent_m = None if climb is None else climb.ascent_m
+    powers_w = best_powers(rows)
     return RideCard(
         speed_line=speed_line(rows.start_s, rows["speed_kmh"]),
-        ascent_m=None if climb is None else climb.ascent_m,
-        power_w_best=best_powers(rows),
+        ascent_m=ascent_m,
+        power_w_best=powers_w,
+        doubts=doubts_of(evidence_of(rows, ascent_m, powers_w)),
         notable=sum(event.kind in (FAULT_SET, MARK) for event in rows.ride.events),
         begin_deg=begin,
         is_loop=is_loop,
+    )
+
+
+def evidence_of(
+    rows: RideColumns, ascent_m: float | None, powers_w: Sequence[float | None]
+) -> Evidence:
+    """What the ride's figures are judged by."""
+    ride = rows.ride
+    return Evidence(
+        rows.values,
+        rows.start_s,
+        rows.seconds,
+        rows.distances,
+        ride.summary or RideSummary(duration_s=0.0),
+        ascent_m,
+        dict(zip(BEST_S, powers_w, strict=True)),
+        ride.intake,
+        ride.metadata,
     )
 
 

@@ -57,6 +57,8 @@ OPEN_LOOP = (
 DISTANCE_KM_MIN = 0.01
 SERIES_PIXELS = 1200
 WARM_UP_S = 600.0
+MEMORY_S = 5.0
+"""After it the law has forgotten strokes and ramps, but not a market's mean power of a minute."""
 
 
 class RideReplay:
@@ -86,13 +88,14 @@ class RideReplay:
 
         def of(part: Stretch) -> law.Replay:
             start, stop = part.rows(reader)
-            before = warm_up_row(ride, start)
-            rows = {
-                name: values if np.ndim(values) == 0 else np.asarray(values)[before:stop]
+            rows = remembered_rows(reader, start, stop)
+            read = {
+                name: values if np.ndim(values) == 0 else np.asarray(values)[rows]
                 for name, values in inputs.items()
             }
             changes = fuzzy_table, assist_modes, step_s, second_table, parameters
-            return self._preview.replay(part.config, rows, *changes, first=start - before)
+            first = len(rows) - (stop - start)
+            return self._preview.replay(part.config, read, *changes, first=first)
 
         replayed = law.joined([of(part) for part in parts])
         new_nm = np.asarray(replayed.motor_torque_nm, np.float64)
@@ -184,6 +187,18 @@ def warm_up_row(ride: Ride, row: int) -> int:
     begins = [round(gap.to_s / period_s) for gap in ride.gaps]
     segment = max((begin for begin in begins if begin <= row), default=0)
     return max(segment, row - round(WARM_UP_S / period_s), 0)
+
+
+def remembered_rows(reader: RideReader, start: int, stop: int) -> npt.NDArray[np.intp]:
+    """Rows [start, stop) after those that the law remembers at their beginning, (n,).
+
+    Where these begin on the way, what was before them nobody recorded: rows after that place stand
+    for it, the nearest last.
+    """
+    before = warm_up_row(reader.ride, start)
+    ahead = before + round(MEMORY_S * 1e6 / (reader.period_us or 1))
+    mirrored = np.arange(min(ahead, reader.row_count - 1), before, -1)
+    return np.concatenate((mirrored, np.arange(before, stop)))
 
 
 def inputs_missing(columns: Mapping[str, Values]) -> list[str]:
@@ -314,6 +329,10 @@ class ReplayedReader:
     def row_seconds(self) -> Values:
         """Each row holds for a period."""
         return np.full(self.row_count, (self.period_us or 1) / 1e6)
+
+    def breaks(self) -> npt.NDArray[np.bool_]:
+        """There are none."""
+        return np.zeros(max(self.row_count - 1, 0), np.bool_)
 
     def level(self, rows_per_bin: int) -> None:
         """There is no pyramid: the rows are at hand."""

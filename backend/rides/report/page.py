@@ -13,6 +13,7 @@ from typing import Any
 
 from backend.core.quantities import plain
 from backend.core.ride_events import RideEvent
+from backend.rides.insight.charge import Charge
 from backend.rides.report.charts import crank_chart, curve_chart, energy_chart, zones_chart
 from backend.rides.report.track_map import track_map
 from backend.rides.report.words import WORDS
@@ -151,18 +152,26 @@ def energy_table(
     return table([head, *(title for _, title, _ in shown)], rows)
 
 
-def charge(values: Mapping[str, Any], words: Mapping[str, str]) -> str:
-    """The range with its band, or the charge alone."""
-    most = values["range_km_most"]
-    ends = {"first": number(values["soc_pct_first"], 1), "last": number(values["soc_pct_last"], 1)}
-    if values["range_km"] is None:
-        return words["charge"].format(**ends)
-    return words["range"].format(
-        range=number(values["range_km"], 0),
-        least=number(values["range_km_least"], 0),
-        most=words["no_end"] if most is None else f"{number(most, 0)} km",
-        **ends,
-    )
+def charge(used: Charge, words: Mapping[str, str]) -> str:
+    """What was used, and the range with its band where there is one."""
+    ends = {"first": used.soc_pct_first, "last": used.soc_pct_last, "used": used.used_pct}
+    texts = [words["charge"].format(**{name: number(pct, 1) for name, pct in ends.items()})]
+    texts += [
+        words["jump"].format(
+            time=clock(jump.at_s), before=number(jump.from_pct, 0), after=number(jump.to_pct, 0)
+        )
+        for jump in used.jumps
+    ]
+    if used.range_km is not None:
+        most = used.range_km_most
+        range_text = words["range"].format(
+            range=number(used.range_km, 0),
+            least=number(used.range_km_least, 0),
+            most=words["no_end"] if most is None else f"{number(most, 0)} km",
+            full=number(used.full_range_km, 0),
+        )
+        texts.append(range_text)
+    return " ".join(texts)
 
 
 def effort(values: Mapping[str, Any], words: Mapping[str, str]) -> Iterator[str]:
@@ -249,8 +258,8 @@ def picture(drawn: Any) -> str:
 
 
 def mode_name(mode: Mapping[str, Any], words: Mapping[str, str]) -> str:
-    """As the configuration calls it, else its slot."""
-    return mode["name"] or words["slot"].format(number=mode["mode"] + 1)
+    """As the configuration calls it, else its number, as the unit or the file has it."""
+    return mode["name"] or words["slot"].format(number=mode["mode"])
 
 
 def span(

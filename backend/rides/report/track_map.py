@@ -205,7 +205,7 @@ def legend(modes: Sequence[int], names: Mapping[int, str], words: Mapping[str, s
         return ""
     items = []
     for mode in modes:
-        name = names.get(mode) or words["slot"].format(number=mode + 1)
+        name = names.get(mode) or words["slot"].format(number=mode)
         sample = line(mode, [(1.0, 7.0), (47.0, 7.0)])
         items.append(
             f'<span><svg class="key" viewBox="0 0 48 14" aria-hidden="true">{sample}</svg> '

@@ -34,10 +34,11 @@ EN = {
     "time": "Time",
     "ratio": "Motor : you",
     "slot": "Mode {number}",
-    "range": "The charge fell from {first} to {last} %. With the rest, a ride like this one goes "
-    "on for {range} km; from {least} km as in its hungriest third to {most} as in its leanest.",
+    "range": "With the rest, a ride like this one goes on for {range} km; from {least} km as in "
+    "its hungriest third to {most} as in its leanest. A full charge goes {full} km.",
     "no_end": "an unknown distance",
-    "charge": "The charge fell from {first} to {last} %.",
+    "charge": "The charge went from {first} to {last} %; {used} % was used.",
+    "jump": "At {time} it jumped from {before} to {after} %: charged, or another battery.",
     "gradient_method": "Gradient is height over way: a straight line over 100 m of heights "
     "averaged over 5 m. A climb counts from 3 m on.",
     "power": "Your power while pedalling",
@@ -128,10 +129,11 @@ ZH = {
     "time": "时间",
     "ratio": "电机 : 您",
     "slot": "模式 {number}",
-    "range": "电量从 {first} % 降至 {last} %。若继续这样骑行，剩余电量可行驶 {range} km；"
-    "按最耗电的三分之一为 {least} km，按最省电的三分之一为 {most}。",
+    "range": "若继续这样骑行，剩余电量可行驶 {range} km；按最耗电的三分之一为 {least} km，"
+    "按最省电的三分之一为 {most}。满电可行驶 {full} km。",
     "no_end": "未知距离",
-    "charge": "电量从 {first} % 降至 {last} %。",
+    "charge": "电量从 {first} % 到 {last} %，共用去 {used} %。",
+    "jump": "{time} 时从 {before} % 跳到 {after} %：充了电，或换了电池。",
     "gradient_method": "坡度为高度比路程：每 5 m 平均的高度在 100 m 内作直线拟合。"
     "爬升从 3 m 起计。",
     "power": "踩踏时您的功率",

@@ -2,7 +2,7 @@
 
 None of the three ever falls, so rows that follow each other in time do so on every axis, and the
 least and greatest value between two places of an axis are those of the rows between. Time in motion
-stands while the speed is at most MOVING_KMH or unknown; distance is that of `insight.distance`.
+stands while the speed is at most MOVING_KMH or unknown; distance is that of core.distance.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ import numpy as np
 import numpy.typing as npt
 
 from backend.core._generated import MOVING_KMH
+from backend.core.breaks import DISTANCE, PAUSE_MIN_US, Mask
 from backend.core.channels import ChannelSpec, Counts, Values
-from backend.core.ride import PAUSE_MIN_US, TimesUs
+from backend.core.distance import DISTANCE_CHANNELS, SPEED, row_distances
+from backend.core.ride import TimesUs
 from backend.errors import FieldError, InvalidRequest
-from backend.rides.insight.distance import row_distances
 
 Axis = Literal["time", "moving", "distance"]
-SPEED, ODOMETER = "speed_kmh", "distance_m"
 
 
 class Rows(Protocol):
@@ -37,6 +37,7 @@ class Rows(Protocol):
     def counts(self, names: Sequence[str], start: int, stop: int) -> Mapping[str, Counts]: ...
     def values(self, names: Sequence[str]) -> Mapping[str, Values]: ...
     def row_seconds(self) -> Values: ...
+    def breaks(self) -> Mask: ...
 
 
 @dataclass(frozen=True)
@@ -53,17 +54,17 @@ def axis_positions(ride: Rows, axis: Axis) -> AxisPositions | None:
     times = ride.times_us(0, ride.row_count)
     if axis == "time":
         return AxisPositions(times / 1e6, np.empty(0, np.int64))
-    columns = ride.values((SPEED, ODOMETER))
+    columns = ride.values(DISTANCE_CHANNELS)
     at = places(columns, times / 1e6, ride.row_seconds(), axis)
     if at is None:
         return None
-    return AxisPositions(at, silent_edges(columns.get(SPEED, columns.get(ODOMETER, at)), times))
+    return AxisPositions(at, silent_edges(columns.get(SPEED, columns.get(DISTANCE, at)), times))
 
 
 def places(
     columns: Mapping[str, Values], start_s: Values, seconds: Values, axis: Axis
 ) -> Values | None:
-    """Seconds in motion or metres at each row (n,); None where SPEED and ODOMETER tell none.
+    """Seconds in motion or metres at each row (n,); None where nothing tells them.
 
     start_s, seconds: when each row begins and how long it holds.
     """
@@ -82,7 +83,7 @@ def require_axis_positions(ride: Rows, axis: Axis) -> AxisPositions:
     """As `axis_positions`; raises InvalidRequest (`no_axis`) where nothing tells it."""
     positions = axis_positions(ride, axis)
     if positions is None:
-        message = f"This ride has no speed or way, so it cannot be drawn over {axis}."
+        message = f"This ride has no speed or distance, so it cannot be drawn over {axis}."
         raise InvalidRequest(message, fields=[FieldError("axis", "no_axis", message)])
     return positions
 

@@ -45,7 +45,6 @@ import numpy.typing as npt
 
 from backend.core.channels import ChannelSpec, Counts, Values
 from backend.core.pyramid import Level, reduce_groups
-from backend.core.ride import pause_us
 from backend.errors import FieldError, InvalidRequest
 from backend.rides.traces.axes import Axis, AxisPositions, Rows, require_axis_positions
 
@@ -285,8 +284,7 @@ def uneven_trace(
     positions = require_axis_positions(ride, axis)
     at = positions.at[start:stop]
     times = ride.times_us(start, stop)
-    all_times = ride.times_us(0, ride.row_count)
-    paused = np.diff(times) > pause_us(all_times, ride.period_us)
+    paused = ride.breaks()[start : max(stop - 1, start)]
     cut = cuts(positions, start, stop)
     if len(times) <= pixels:
         starts = np.arange(len(times))

@@ -2,8 +2,8 @@
 
 Half of the points stand evenly in time, so that a place between two of them can be derived from its
 moment; the others are where the track bends most (Douglas and Peucker 1973, the farthest point
-first). Between positions further apart than a pause stands one point without a position: no line
-is drawn there.
+first). In a break of the ride, and between positions that are missing for longer than the shortest
+of these, stands one point without a position: no line is drawn there.
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from backend.core.breaks import LATITUDE, LONGITUDE, apart
 from backend.core.channels import Values
-from backend.core.ride import PAUSE_MIN_US
-from backend.rides.traces.axes import ODOMETER, SPEED, Axis, Rows, places
+from backend.core.distance import DISTANCE_CHANNELS
+from backend.rides.traces.axes import Axis, Rows, places
 
-LATITUDE, LONGITUDE = "latitude_deg", "longitude_deg"
 EVEN_POINTS = 1000
 BENDS = 1000
 # Of the track's extent: what is nearer to the line is less than a pixel on any screen.
@@ -53,7 +53,7 @@ class Track:
 def track(ride: Rows) -> Track:
     """The points of a whole ride: at most EVEN_POINTS + BENDS and two for each gap."""
     times_s = ride.times_us(0, ride.row_count) / 1e6
-    columns = ride.values((LATITUDE, LONGITUDE, SPEED, ODOMETER))
+    columns = ride.values(DISTANCE_CHANNELS)
     positioned_rows = positioned(columns)
     rows = evenly(times_s)
     breaks = np.empty(0, np.int64)
@@ -61,7 +61,7 @@ def track(ride: Rows) -> Track:
         bends = positioned_rows[
             bending(columns[LATITUDE][positioned_rows], columns[LONGITUDE][positioned_rows])
         ]
-        breaks = np.flatnonzero(np.diff(times_s[positioned_rows]) * 1e6 > PAUSE_MIN_US)
+        breaks = np.flatnonzero(apart(positioned_rows, times_s, ride.breaks()))
         ends = np.concatenate(
             (
                 positioned_rows[breaks],

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, fields
+from typing import Any
 
 from sqlalchemy import Connection, Table, delete, insert, or_, select, update
 
+from backend.core.doubts import open_doubts
 from backend.core.ride import Ride, RidePlace
 from backend.core.ride_card import BEST_S, CARD_METHOD, RideCard
 from backend.core.ride_zero import ZERO_METHOD, RideZero, ZeroOfRide
@@ -66,11 +68,16 @@ class CardStore:
             "zone": place.zone,
             "is_loop": place.is_loop,
             "words": "",
+            "doubts": [asdict(doubt) for doubt in card.doubts],
         }
 
         def work(connection: Connection) -> None:
+            query = select(t.ride.c.accepted_doubts).where(t.ride.c.id == ride.id)
+            accepted = connection.execute(query).scalar() or []
+            values["open_doubts"] = open_doubts(card.doubts, accepted)
             if save_row(connection, t.ride_card, CARD_METHOD, ride, values):
                 note_words(connection, ride.id)
+                settle_twins(connection, ride.id)
 
         self._database.write(work)
 
@@ -89,6 +96,35 @@ def note_words(connection: Connection, ride_id: int) -> None:
     words = "\n".join(["", *lines, ""]).casefold()
     mine = t.ride_card.c.ride_id == ride_id
     connection.execute(update(t.ride_card).where(mine).values(words=words))
+
+
+def settle_twins(connection: Connection, ride_id: int) -> None:
+    """Of the recordings of one ride let the best count: nothing doubtful or impossible in it, then
+    the most channels and rows, then the first that came."""
+    ride, card = t.ride.c, t.ride_card.c
+    mine = select(ride.same_ride_as).where(ride.id == ride_id)
+    one = or_(ride.id == ride_id, ride.same_ride_as == ride_id, ride.id == mine.scalar_subquery())
+    columns = (ride.id, ride.intake, ride.channels, ride.row_count, card.open_doubts)
+    query = select(*columns).outerjoin(t.ride_card, card.ride_id == ride.id).where(one)
+
+    def worth(row: Any) -> tuple[int, ...]:
+        impossible = sum((row.intake or {}).get("values_dropped", {}).values())
+        return (-(row.open_doubts or 0), -impossible, len(row.channels), row.row_count, -row.id)
+
+    rows = connection.execute(query.where(ride.state == "done")).all()
+    best = max(rows, key=worth).id if rows else None
+    for row in rows:
+        summary = update(t.ride_summary).where(t.ride_summary.c.ride_id == row.id)
+        connection.execute(summary.values(outdone=int(row.id != best)))
+
+
+def accept_doubts(connection: Connection, ride: Ride, accepted: bool) -> None:
+    """Note that somebody accepts all that is doubtful of a ride, or takes that back."""
+    codes = [doubt.code for doubt in ride.doubts] if accepted else []
+    connection.execute(update(t.ride).where(t.ride.c.id == ride.id).values(accepted_doubts=codes))
+    card = update(t.ride_card).where(t.ride_card.c.ride_id == ride.id)
+    connection.execute(card.values(open_doubts=open_doubts(ride.doubts, codes)))
+    settle_twins(connection, ride.id)
 
 
 FIELDS = tuple(field.name for field in fields(RideZero))

@@ -85,8 +85,9 @@ def sums() -> tuple[Any, ...]:
 
 
 def of_bike(query: Select[Any], bike_id: int | None) -> Select[Any]:
-    """Finished rides with their figures, all or a bike's."""
+    """Finished rides with their figures, all or a bike's; of two recordings of one the better."""
     query = query.select_from(t.ride.join(t.ride_summary, t.ride_summary.c.ride_id == t.ride.c.id))
+    query = query.where(t.ride_summary.c.outdone == 0)
     if bike_id is None:
         return query
     # As a sum it is no term of an index: SQLite would gather every ride of the bike by it and sort
@@ -144,10 +145,13 @@ def records(connection: Connection, bike_id: int | None) -> tuple[Best, ...]:
 
 
 def best_by(connection: Connection, column: Any, also: Any, bike_id: int | None) -> Row[Any] | None:
-    """Value, id and start of the ride that has most of a figure; None where none has any."""
+    """Value, id and start of the ride that has most of a figure; None where none has any.
+
+    One that is doubtful has none, nor one that is not judged yet.
+    """
     query = of_bike(select(column, t.ride.c.id, t.ride.c.started_us), bike_id)
-    if column.table is t.ride_card:
-        query = query.join(t.ride_card, t.ride_card.c.ride_id == t.ride.c.id)
+    query = query.join(t.ride_card, t.ride_card.c.ride_id == t.ride.c.id)
+    query = query.where(t.ride_card.c.open_doubts == 0)
     sport = t.ride.c.sport
     query = query.where(column > 0).where(
         or_(sport.is_(None), *(func.lower(sport).like(word) for word in CYCLING))

@@ -241,6 +241,8 @@ ride = Table(
     Column("server_id", String(32)),
     Column("heartbeat_us", BigInteger),
     Column("cut_short", Boolean),
+    # Codes of doubts that somebody accepted.
+    Column("accepted_doubts", JSON, nullable=False, server_default="[]"),
     # A list goes by it, newest first; with the bike in it totals need no row of this wide table.
     Index(None, "started_us", "id", "bike_id"),
 )
@@ -272,6 +274,9 @@ ride_card = Table(
     Column("zone", String(64)),
     Column("is_loop", Boolean),
     Column("words", Text, nullable=False),
+    # core.doubts.Doubt, and how many of them nobody accepted.
+    Column("doubts", JSON, nullable=False, server_default="[]"),
+    Column("open_doubts", Integer, nullable=False, server_default="0"),
 )
 
 # core.ride_zero.RideZero: derived, like a card.
@@ -305,12 +310,17 @@ ride_source = Table(
     UniqueConstraint("ride_id", "upload_id"),
 )
 
-# Real columns, one for each figure of core.ride.RideSummary: they are searched and summed.
+# Real columns, one for each figure of core.ride.RideSummary: they are searched and summed. Worked
+# out anew by a newer method.
 ride_summary = Table(
     "ride_summary",
     metadata,
     Column("ride_id", KEY, ForeignKey("ride.id"), primary_key=True),
     Column("duration_s", Float, nullable=False),
+    Column("distance_source", String(16)),
+    Column("method", Integer, nullable=False, server_default="0"),
+    # 1 where a better recording of the same ride counts in its place.
+    Column("outdone", Integer, nullable=False, server_default="0"),
     *(
         Column(name, Float)
         for name in (

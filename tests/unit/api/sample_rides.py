@@ -46,8 +46,10 @@ SAMPLE_RIDE: dict[str, Any] = {
     "object_bytes": 4096,
     "damage": None,
     "same_ride_as": None,
+    "outdone": False,
     "tags": ["winter"],
     "place": {"name": "Dublin", "country": "IE", "zone": "Europe/Dublin", "is_loop": False},
     "speed_line_kmh": [20.0, None] * 32,
+    "doubts": [],
     "summary": {**dict.fromkeys(field.name for field in fields(RideSummary)), "duration_s": 7200.0},
 }

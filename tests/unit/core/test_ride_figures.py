@@ -10,6 +10,7 @@ import math
 import numpy as np
 import pytest
 
+from backend.core.breaks import find_breaks
 from backend.core.channels import MISSING_INT16, MISSING_INT32, ChannelSpec, Values
 from backend.core.energy import derivable, derive, energy, motor_torque_meaning, sample_seconds
 from backend.core.ride import TimesUs, find_gaps, summarise
@@ -43,7 +44,8 @@ def test_a_sine_of_torque_has_the_energy_of_its_mean() -> None:
     torque = 30.0 * np.sin(2.0 * math.pi * times / 1e6) ** 2
     columns = {"rider_torque_nm": torque, "cadence_rpm": np.full(HOUR_ROWS, 90.0)}
 
-    spent = energy(derive("rider_power_w", columns, None), sample_seconds(times, TENTH_US))
+    seconds = sample_seconds(times, find_breaks({}, times))
+    spent = energy(derive("rider_power_w", columns, None), seconds)
 
     assert spent.wh == pytest.approx(15.0 * 90.0 * 2.0 * math.pi / 60.0, rel=1e-9)
 
@@ -146,7 +148,7 @@ def test_a_pause_of_a_head_unit_is_neither_ridden_nor_powered() -> None:
     columns = {"speed_kmh": np.full(1200, 36.0), "rider_power_w": np.full(1200, 180.0)}
 
     summary = summarise(columns, times, None)
-    gaps = find_gaps(times, np.zeros(1200, bool), None)
+    gaps = find_gaps(times, np.zeros(1200, bool), find_breaks({}, times))
 
     assert summary.distance_km == pytest.approx(12.0)
     assert summary.rider_wh == pytest.approx(60.0)
@@ -190,14 +192,14 @@ def test_what_does_not_fit_a_channel_is_missing_and_not_wrapped() -> None:
 
 
 def test_a_track_without_speed_or_odometer_is_as_long_as_the_way_over_the_ground() -> None:
-    """A degree along the equator is 111.195 km, along the parallel at 60 degrees half of that. What
-    lies across a break is not counted, nor what has no position."""
+    """A hundredth of a degree along the equator is 1111.95 m, along the parallel at 60 degrees
+    half of that. What nobody can ride in the time is not counted, nor what has no position."""
     times_us = np.array([0, 60, 120, 180, 7200, 7260], dtype=np.int64) * 1_000_000
-    longitude = np.array([10.0, 10.5, 11.0, np.nan, 50.0, 51.0])
+    longitude = np.array([10.0, 10.005, 10.01, np.nan, 50.0, 50.01])
 
     for latitude_deg, share in ((0.0, 1.0), (60.0, 0.5)):
         latitude = np.where(np.isnan(longitude), np.nan, latitude_deg)
         values = {"latitude_deg": latitude, "longitude_deg": longitude}
         distance_km = summarise(values, times_us, None).distance_km
 
-        assert distance_km == pytest.approx(2 * 111.195 * share, rel=1e-4)
+        assert distance_km == pytest.approx(2 * 1.11195 * share, rel=1e-4)

@@ -9,9 +9,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from backend.core.channels import Values
+from backend.core.distance import row_distances
 from backend.rides.insight.charge import charge_of
-from backend.rides.insight.distance import climb_of, climbed, gradient_pct, row_distances
 from backend.rides.insight.energy_split import by_gradient, energy_shares
+from backend.rides.insight.gradient import climb_of, climbed, gradient_pct
 
 STEP_S, SPEED_KMH = 1.0, 18.0
 STEP_M = SPEED_KMH / 3.6 * STEP_S
@@ -111,9 +113,15 @@ def ridden(km: float, used_pct: float, step_pct: float = 0.1) -> tuple[np.ndarra
     return charge, np.full(rows, STEP_S), np.full(rows, STEP_M)
 
 
+def starts_of(seconds: Values) -> Values:
+    """When each row begins."""
+    starts: Values = np.cumsum(seconds) - seconds
+    return starts
+
+
 def test_the_range_is_the_charge_left_over_the_charge_for_a_kilometre() -> None:
     charge, seconds, step_m = ridden(km=10.0, used_pct=20.0)
-    told = charge_of(charge, None, seconds, step_m)
+    told = charge_of(charge, None, starts_of(seconds), seconds, step_m)
 
     assert told is not None
     assert told.range_km == pytest.approx(60.0 * 10.0 / 20.0, rel=0.02)
@@ -128,7 +136,7 @@ def test_a_hungry_third_makes_the_short_end_of_the_band() -> None:
     third = np.arange(len(charge)) * 3 // len(charge)
     power_w = np.choose(third, (100.0, 300.0, 200.0))
 
-    told = charge_of(charge, power_w, seconds, step_m)
+    told = charge_of(charge, power_w, starts_of(seconds), seconds, step_m)
 
     assert told is not None
     assert told.range_km is not None
@@ -148,14 +156,14 @@ def test_a_hungry_third_makes_the_short_end_of_the_band() -> None:
 def test_a_range_that_would_be_a_guess_is_refused(
     km: float, used_pct: float, step_pct: float, why: str
 ) -> None:
-    told = charge_of(np.empty(0), None, np.empty(0), None)
+    told = charge_of(np.empty(0), None, np.empty(0), np.empty(0), None)
     charge, seconds, step_m = ridden(km, used_pct, step_pct)
-    answer = charge_of(charge, None, seconds, step_m)
+    answer = charge_of(charge, None, starts_of(seconds), seconds, step_m)
 
     assert told is None
     assert answer is not None
     assert (answer.refused, answer.range_km) == (why, None)
-    unknown = charge_of(charge, None, seconds, None)
+    unknown = charge_of(charge, None, starts_of(seconds), seconds, None)
     assert unknown is not None
     assert unknown.refused == "no_distance"
 
@@ -163,7 +171,7 @@ def test_a_range_that_would_be_a_guess_is_refused(
 def test_one_glitch_of_the_charge_moves_no_range() -> None:
     charge, seconds, step_m = ridden(km=10.0, used_pct=20.0)
     charge[-1] = 50.0
-    told = charge_of(charge, None, seconds, step_m)
+    told = charge_of(charge, None, starts_of(seconds), seconds, step_m)
 
     assert told is not None
     assert told.soc_pct_last == pytest.approx(60.0, abs=0.3)

@@ -85,7 +85,7 @@ def test_modes_are_told_by_dash_and_width_and_change_where_they_changed() -> Non
     text = track_map(track, events, {3: "<b>sport"}, ZH)
     assert f'stroke-dasharray="{LOOKS[1][1]}"' in text
     assert "&lt;b&gt;sport" in text
-    assert "模式 2" in text
+    assert "模式 1" in text
     assert "起点" in text
 
 

@@ -18,10 +18,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from backend.core.breaks import Mask, find_breaks
 from backend.core.channels import MISSING_INT16, MISSING_INT32, ChannelSpec, Counts, Values
 from backend.core.energy import sample_seconds
 from backend.core.pyramid import STEPS, Level, first_level
-from backend.core.ride import pause_us
 from backend.errors import InvalidRequest
 from backend.rides.traces.figure import figure
 from backend.rides.traces.trace import Trace, trace
@@ -57,8 +57,10 @@ class PlainReader:
         return {n: known[n].to_values(self._counts[n]) for n in names if n in known}
 
     def row_seconds(self) -> Values:
-        times = self.times_us(0, self.row_count)
-        return sample_seconds(times, pause_us(times, self.period_us))
+        return sample_seconds(self.times_us(0, self.row_count), self.breaks())
+
+    def breaks(self) -> Mask:
+        return find_breaks({}, self.times_us(0, self.row_count))
 
     def level(self, rows_per_bin: int) -> Level | None:
         steps = [step for step in STEPS if step <= rows_per_bin]

@@ -147,14 +147,19 @@ def north(length_m: float, east_m: float = 0.0, longer: float = 1.0) -> Position
     way = np.arange(0.0, length_m, 5.0)
     east_deg = east_m / (DEG_M * math.cos(math.radians(60.0)))
     return Positions(
-        60.0 + way / DEG_M, np.full(len(way), 10.0 + east_deg), way / 5.0, way * longer
+        60.0 + way / DEG_M,
+        np.full(len(way), 10.0 + east_deg),
+        way / 5.0,
+        np.zeros(len(way) - 1, np.bool_),
+        way * longer,
     )
 
 
 def turned(there: Positions) -> Positions:
     """The other way round."""
     assert there.at_m is not None
-    return Positions(there.latitude_deg[::-1], there.longitude_deg[::-1], there.start_s, there.at_m)
+    back = there.latitude_deg[::-1], there.longitude_deg[::-1]
+    return Positions(*back, there.start_s, there.breaks, there.at_m)
 
 
 def test_a_parallel_way_is_the_same_up_to_thirty_metres() -> None:
@@ -203,7 +208,7 @@ def test_nothing_is_walked_over_a_gap() -> None:
 
 def test_without_positions_nobody_knows() -> None:
     nowhere: Values = np.full(100, np.nan)
-    lost = Positions(nowhere, nowhere, np.arange(100.0), None)
+    lost = Positions(nowhere, nowhere, np.arange(100.0), np.zeros(99, np.bool_), None)
 
     assert route_overlap(lost, north(1000.0)) is None
     assert route_overlap(north(1000.0), lost) is None

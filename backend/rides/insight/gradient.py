@@ -1,10 +1,9 @@
-"""Way, height and gradient of a ride's rows.
+"""Height and gradient of a ride's rows.
 
-The way is the odometer's, else the speed's integral. The gradient is height over way, never told
-from speed: heights are averaged over cells of CELL_M of way, and a straight line is fitted to them
-over WINDOW_M around each cell. With a barometer's 0.3 m of noise a cell that comes to 0.2 %.
-Neither reaches over a gap: a run of heights ends there, and with less than half a window around it
-a cell has no gradient.
+The gradient is height over distance, never told from speed: heights are averaged over cells of
+CELL_M of distance, and a straight line is fitted to them over WINDOW_M around each cell. With a
+barometer's 0.3 m of noise a cell that comes to 0.2 %. Neither reaches over a gap: a run of heights
+ends there, and with less than half a window around it a cell has no gradient.
 
 Ascent counts a climb only once it is CLIMB_M above the lowest point since the last one, as
 GoldenCheetah does (3 m unless set): a barometer's drift at a red light is no hill. A climb goes on
@@ -13,7 +12,7 @@ behind a gap; what the height changed by in it is not climbed.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,30 +20,18 @@ import numpy.typing as npt
 
 from backend.core.channels import Values
 from backend.core.described import described
-from backend.core.energy import KMH_PER_MS
+from backend.core.distance import RowDistances
 
 CELL_M = 5.0
 WINDOW_M = 100.0
 GAP_S = 10.0
-"""Between heights; as core.ride counts pauses."""
 GAP_M = 50.0
+"""Between heights that do not stand in rows that follow each other."""
 GRADIENT_PCT_MAX = 40.0
 """Steeper than any road (Baldwin Street: 34.8 %): the height jumped, and there is no gradient."""
 CLIMB_M = 3.0
 
 Mask = npt.NDArray[np.bool_]
-
-
-@dataclass(frozen=True)
-class RowDistances:
-    """Of rows (n,): metres since the start at each, and metres ridden while each held.
-
-    lost_m: way that only the odometer knows, in gaps; it is in no row.
-    """
-
-    at_m: Values
-    step_m: Values
-    lost_m: float
 
 
 @dataclass(frozen=True)
@@ -59,7 +46,7 @@ class Heights:
 
 @described
 class Climb:
-    """By heights averaged over 5 m of way; a climb counts once it is 3 m high."""
+    """By heights averaged over 5 m of distance; a climb counts once it is 3 m high."""
 
     ascent_m: float
     descent_m: float
@@ -69,30 +56,6 @@ class Climb:
     """Of the averaged heights."""
 
 
-def row_distances(
-    columns: Mapping[str, Values], start_s: Values, seconds: Values
-) -> RowDistances | None:
-    """The way of rows (n,); None without speed and odometer.
-
-    columns: `distance_m` or `speed_kmh`, missing as NaN. start_s, seconds: when each row begins
-    and how long it holds.
-    """
-    odometer = columns.get("distance_m")
-    if odometer is not None and np.isfinite(odometer).any():
-        valid = np.flatnonzero(np.isfinite(odometer))
-        last = valid[np.maximum(np.searchsorted(valid, np.arange(len(odometer)), "right") - 1, 0)]
-        at_m = np.maximum.accumulate(odometer[last])
-        step_m = np.diff(at_m, append=at_m[-1:])
-        gap = np.diff(start_s, append=start_s[-1:]) > seconds + 1e-6
-        lost_m = float(step_m[gap].sum())
-        return RowDistances(at_m - at_m[0], np.where(gap, 0.0, step_m), lost_m)
-    speed = columns.get("speed_kmh")
-    if speed is None or not np.isfinite(speed).any():
-        return None
-    step_m = np.where(np.isfinite(speed), speed, 0.0) / KMH_PER_MS * seconds
-    return RowDistances(np.cumsum(step_m) - step_m, step_m, 0.0)
-
-
 def runs_of_heights(
     altitude_m: Values, distances: RowDistances, start_s: Values
 ) -> Iterator[Heights]:
@@ -100,7 +63,9 @@ def runs_of_heights(
     valid = np.flatnonzero(np.isfinite(altitude_m))
     if not len(valid):
         return
-    broken = (np.diff(start_s[valid]) > GAP_S) | (np.diff(distances.at_m[valid]) > GAP_M)
+    follows = (np.diff(valid) == 1) & ~distances.gap[valid[:-1]]
+    far = (np.diff(start_s[valid]) > GAP_S) | (np.diff(distances.at_m[valid]) > GAP_M)
+    broken = far & ~follows
     for rows in np.split(valid, np.flatnonzero(broken) + 1):
         start_m = float(distances.at_m[rows[0]])
         cells = ((distances.at_m[rows] - start_m) // CELL_M).astype(np.intp)
