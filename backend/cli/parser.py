@@ -9,6 +9,7 @@ from typing import Any
 
 from backend import __version__
 from backend.cli import api, device, device_log, people, ride, ride_upload, serve, store
+from backend.cli.table_answer import column_meaning
 
 KEY = "for a server that asks who this is; default: SPINDLE_KEY"
 AUTHOR = "whose changes these are; default: the server's setting, else its system's user"
@@ -131,6 +132,16 @@ def _add_ride(verbs: Any) -> None:
     for name in ("speed", "distance", "altitude", "temperature", "torque"):
         command.add_argument(f"--{name}-unit", metavar="UNIT", help=f"of a table's {name}")
     command.add_argument("--rows-per-second", type=float, help="of a log without times")
+    words = "whether 03/04 is 3 April or 4 March"
+    command.add_argument("--dates", choices=["day_first", "month_first"], help=words)
+    command.add_argument(
+        "--column",
+        action="append",
+        default=[],
+        type=column_meaning,
+        metavar="NAME=CHANNEL",
+        help="what a column of a table is, or `none`; repeat for several",
+    )
     command = _asking(group, "upload", ride_upload.upload, help="files and whole folders")
     command.add_argument("paths", nargs="+", type=Path, metavar="PATH")
     command.add_argument("--watch", action="store_true", help="also what appears, until Ctrl-C")

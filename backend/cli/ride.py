@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-import time
 from argparse import Namespace
 from contextlib import suppress
 from datetime import datetime
@@ -13,6 +12,7 @@ from zoneinfo import ZoneInfo, ZoneInfoNotFoundError
 
 from backend.cli.client import print_json, print_table, text_of, write_out
 from backend.cli.device import server_of
+from backend.cli.table_answer import answer_for_table
 from backend.errors import RequestRefused
 
 # From which hour on a ride is called what, as on the page.
@@ -57,81 +57,6 @@ def import_file(server: Any, file: Path) -> dict[str, Any]:
     except RequestRefused as error:
         return {"state": "rejected", "code": error.code, "detail": error.message, "ride_ids": []}
     return answer
-
-
-def answer_for_table(server: Any, options: Namespace, upload: dict[str, Any]) -> dict[str, Any]:
-    """What became of a table once the options say what it does not; other files as they are."""
-    if upload.get("code") == "part_asks":
-        return answer_for_parts(server, options, upload)
-    if upload.get("code") != "needs_mapping":
-        return upload
-    path = f"/uploads/{upload['id']}/mapping"
-    question = server.ask("GET", path)
-    by_channel = {
-        "speed_kmh": options.speed_unit,
-        "distance_m": options.distance_unit,
-        "altitude_m": options.altitude_unit,
-        "temperature_degc": options.temperature_unit,
-        "motor_temperature_degc": options.temperature_unit,
-        "rider_torque_nm": options.torque_unit,
-        "motor_torque_nm": options.torque_unit,
-    }
-    lacks, units = [], {}
-    for column in question["columns"]:
-        if not column["units"]:
-            continue
-        option = by_channel.get(column["channel"])
-        if option is None:
-            name = column["channel"].split("_")[-2]
-            lacks.append(f"--{name}-unit ({', '.join(column['units'])}) of {column['name']}")
-        else:
-            units[column["name"]] = option
-    if question["time_zone"] and options.time_zone is None:
-        lacks.append("--time-zone of its times")
-    if question["rows_per_second"] and options.rows_per_second is None:
-        lacks.append("--rows-per-second")
-    if lacks:
-        return {**upload, "detail": f"{upload['detail']} Lacking: {'; '.join(lacks)}."}
-    body = {
-        "time_zone": options.time_zone,
-        "units": units,
-        "rows_per_second": options.rows_per_second,
-    }
-    try:
-        answer: dict[str, Any] = server.ask("PUT", path, json=body)
-    except RequestRefused as error:
-        return {**upload, "code": error.code, "detail": error.message}
-    return answer
-
-
-def answer_for_parts(server: Any, options: Namespace, upload: dict[str, Any]) -> dict[str, Any]:
-    """What became of an archive once the options say what tables within it do not."""
-    cursor: str | None = None
-    while True:
-        params = {"part_of": upload["id"], "limit": 500, **({"cursor": cursor} if cursor else {})}
-        page = server.ask("GET", "/uploads", params=params)
-        for part in page["items"]:
-            # What was said of one may have read it since.
-            now = server.ask("GET", f"/uploads/{part['id']}")
-            answer = answer_for_table(server, options, now)
-            if answer.get("code") == "needs_mapping":
-                return {
-                    **upload,
-                    "detail": f"{upload['detail']} {part['name']}: {answer['detail']}",
-                }
-        cursor = page["next"]
-        if cursor is None:
-            return read_by_now(server, upload["id"])
-
-
-def read_by_now(server: Any, upload_id: str) -> dict[str, Any]:
-    """An upload when it is read, or how it stands after a minute."""
-    for _ in range(120):
-        upload: dict[str, Any] = server.ask("GET", f"/uploads/{upload_id}")
-        if upload["state"] != "queued":
-            break
-        time.sleep(0.5)
-    return upload
 
 
 def print_upload(answer: dict[str, Any]) -> None:

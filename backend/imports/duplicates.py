@@ -20,7 +20,9 @@ from enum import Enum
 import numpy as np
 import numpy.typing as npt
 
+from backend.core.breaks import is_reachable, track_steps_m
 from backend.core.energy import KMH_PER_MS
+from backend.core.intake import Intake
 from backend.core.ride import Ride
 from backend.core.sphere import EARTH_M
 from backend.formats import ImportedRide
@@ -60,8 +62,9 @@ Seconds = npt.NDArray[np.int64]
 class Kind(Enum):
     """How a file's ride is to one that is here.
 
-    EXISTING: all of it is here. FULLER: it has that and more. OTHER_DEVICE: the same ride
-    by another device. PARTLY: the same recording, each with something that the other lacks.
+    EXISTING: all of it is here. FULLER: it has that and more, or less that cannot be.
+    OTHER_DEVICE: the same ride by another device. PARTLY: the same recording, each with something
+    that the other lacks.
     """
 
     EXISTING = "known"
@@ -135,7 +138,8 @@ def judged(
         ours_shared, theirs_shared = taken(ours, our_rows), taken(theirs, their_rows)
         if is_same_recording(ours_shared, theirs_shared):
             within = (len(shared) / len(ours), len(shared) / len(theirs))
-            return of_one_recording(ride, imported, within, is_complete)
+            worse = impossible(ride.intake, ours) - impossible(imported.intake, theirs)
+            return of_one_recording(ride, imported, within, is_complete, worse > 0)
     span = min(ours.unix_s[-1], theirs.unix_s[-1]) - max(ours.unix_s[0], theirs.unix_s[0])
     length = min(np.ptp(ours.unix_s), np.ptp(theirs.unix_s))
     if span < max(1, OVERLAP_SHARE * length):
@@ -155,21 +159,36 @@ def may_be_one(ride: Ride, imported: ImportedRide) -> bool:
 
 
 def of_one_recording(
-    ride: Ride, imported: ImportedRide, within: tuple[float, float], is_complete: bool
+    ride: Ride,
+    imported: ImportedRide,
+    within: tuple[float, float],
+    is_complete: bool,
+    is_worse: bool,
 ) -> Kind:
-    """Which of two of one recording has more. within: share of ours in theirs, theirs in ours."""
+    """Which of two of one recording has more. within: share of ours in theirs, theirs in ours.
+
+    is_worse: ours has more that cannot be.
+    """
     ours = {channel.name for channel in ride.channels} | WORKED_OUT
     offered = {channel.name for channel in ride.offered} | WORKED_OUT
     theirs = {channel.name for channel in imported.rows.channels} | WORKED_OUT
     ours_in_theirs, theirs_in_ours = (share >= WITHIN_SHARE for share in within)
     mends = ride.completeness is not None and ride.completeness < 1.0 and is_complete
-    more_rows = not theirs_in_ours or mends
+    is_better = not theirs_in_ours or mends or is_worse or not theirs <= offered
     may_replace = ride.origin == "imported" and not ride.filled
-    if may_replace and ours_in_theirs and ours <= theirs and (more_rows or not theirs <= offered):
+    if may_replace and ours_in_theirs and ours <= theirs and is_better:
         return Kind.FULLER
     if theirs_in_ours and (theirs <= offered or ride.origin == "recorded"):
         return Kind.EXISTING
     return Kind.PARTLY
+
+
+def impossible(intake: Intake | None, ride: BySecond) -> int:
+    """How much of a ride cannot be: what was left out of it, and positions nobody could reach."""
+    valid = np.isfinite(ride[LATITUDE]) & np.isfinite(ride[LONGITUDE])
+    steps_m = track_steps_m(ride[LATITUDE][valid], ride[LONGITUDE][valid])
+    far = ~is_reachable(steps_m, np.diff(ride.unix_s[valid]).astype(np.float64))
+    return int(far.sum()) + (sum(intake.values_dropped.values()) if intake else 0)
 
 
 def taken(ride: BySecond, rows: npt.NDArray[np.intp]) -> BySecond:

@@ -4,17 +4,29 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from concurrent.futures import Future, wait
+from contextlib import suppress
 from dataclasses import asdict
 from functools import partial
 from typing import Any
 
-from backend.errors import FieldError, InvalidRequest
+from backend.errors import Conflict, FieldError, InvalidRequest
 from backend.formats import NEEDS_MAPPING
-from backend.formats.questions import TableAnswer, answer_from_json, answer_to_json, lacking
+from backend.formats.questions import (
+    LEFT_OUT,
+    TIME,
+    TableAnswer,
+    TableQuestion,
+    answer_from_json,
+    answer_to_json,
+    lacking,
+)
+from backend.formats.tables.measures import OFFERED
 from backend.imports.container import PART_ASKS
 from backend.imports.records import TableAnswers
 from backend.imports.service import Uploads
 from backend.store import Store, Upload
+
+UNITS_OF = {offered.name: offered.units for offered in OFFERED}
 
 
 class TableMapping:
@@ -32,16 +44,21 @@ class TableMapping:
         """
         question = self._uploads.question(upload_id)
         stored = self._answers.get(question.header_sha256)
+        if stored is not None:
+            # What was said of one column can open a question about another.
+            with suppress(Conflict):
+                question = self._uploads.question(upload_id, stored.answer)
         answer = answer_to_json(stored.answer) if stored else None
-        return {**asdict(question), "answer": answer}
+        return {**asdict(question), "offered_channels": OFFERED, "answer": answer}
 
     def say(self, upload_id: str, values: Mapping[str, Any]) -> Upload:
         """Keep an answer and read the file by it; what became of it.
 
         All others that wait for the same are read behind it, and each tells for itself what became
         of it; then the containers they are within are judged anew. values: the members of
-        TableAnswer.
-        Raises NotFound, Conflict; InvalidRequest for an answer that lacks something.
+        TableAnswer. A file whose answer opens another question waits for that.
+        Raises NotFound, Conflict; InvalidRequest for an answer that lacks something, or says what
+        cannot be.
         """
         answer = answer_from_json(values) or TableAnswer()
         question = self._uploads.question(upload_id)
@@ -49,6 +66,9 @@ class TableMapping:
             sentence = f"Not said, or not one of what can be said: {', '.join(missing)}."
             fields = [FieldError(name, "not_said", sentence) for name in missing]
             raise InvalidRequest(sentence, code="answer_incomplete", fields=fields)
+        if wrong := wrong_statements(question, answer):
+            sentence = " ".join(field.message for field in wrong)
+            raise InvalidRequest(sentence, code="answer_wrong", fields=wrong)
         self._answers.save(question, answer)
         others = self._store.uploads.asking(NEEDS_MAPPING, question.header_sha256)
         containers = {one: self._uploads.get(one).part_of for one in (upload_id, *others)}
@@ -82,3 +102,22 @@ class TableMapping:
     def forget(self, header_sha256: str) -> None:
         """Ask again from now on; rides that were read stay as they are. Raises NotFound."""
         self._answers.forget(header_sha256)
+
+
+def wrong_statements(question: TableQuestion, answer: TableAnswer) -> list[FieldError]:
+    """What is said of columns that there are not, or that they cannot be."""
+    columns = {column.name: column for column in question.columns}
+    faults = []
+    for name, channel in answer.channels.items():
+        column, units = columns.get(name), UNITS_OF.get(channel, ())
+        if column is None:
+            faults.append(FieldError(name, "no_column", f"The table has no column {name}."))
+        elif column.channel == TIME:
+            faults.append(FieldError(name, "is_time", f"{name} tells the time."))
+        elif channel != LEFT_OUT and channel not in UNITS_OF:
+            sentence = f"{name} cannot be {channel}: it is one of {', '.join(UNITS_OF)}."
+            faults.append(FieldError(name, "unknown_channel", sentence))
+        elif units and answer.units.get(name, units[0]) not in units:
+            sentence = f"{name} is in {', '.join(units)}; not in {answer.units[name]}."
+            faults.append(FieldError(name, "unknown_unit", sentence))
+    return faults

@@ -8,7 +8,7 @@ from typing import Literal
 from pydantic import Field
 
 from backend.core.api_models import Answer, RequestBody
-from backend.formats.questions import TableAnswer, TableColumn
+from backend.formats.questions import OfferedChannel, TableAnswer, TableColumn
 from backend.imports.records import AnsweredTable
 from backend.store.uploads import UploadParts
 
@@ -34,6 +34,9 @@ class Upload(Answer):
     )
     part_of: str | None = Field(description="The upload of the container it came within.")
     parts: UploadParts | None = Field(description="Of a container; null for any other file.")
+    doubtful_rides: int = Field(
+        description="How many of its rides have figures that disagree or cannot be."
+    )
 
 
 class UploadList(Answer):
@@ -49,6 +52,14 @@ class TableAnswerRequest(RequestBody):
     )
     units: dict[str, str] = Field(default_factory=dict, description="By the column's name.")
     rows_per_second: float | None = Field(default=None, gt=0, le=1000)
+    date_order: Literal["day_first", "month_first"] | None = Field(
+        default=None, description="How 03/04 is read: 3 April or 4 March."
+    )
+    channels: dict[str, str] = Field(
+        default_factory=dict,
+        description="What a column is, by its name, whether that is asked or not: a name of "
+        '`offered_channels`; `""` for none of them, its numbers stay under its own name.',
+    )
 
 
 class TableQuestion(Answer):
@@ -58,7 +69,9 @@ class TableQuestion(Answer):
     kind: str
     time_zone: bool = Field(description="Its times have no zone.")
     rows_per_second: bool = Field(description="Its rows have no time.")
+    date_order: bool = Field(description="Whether 03/04 is in April or in March.")
     columns: list[TableColumn]
+    offered_channels: list[OfferedChannel]
     answer: TableAnswer | None
 
 

@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import NamedTuple, Protocol
 
 from backend.core.ride import Ride, iso_utc
-from backend.errors import BadFile, Conflict, InvalidRequest
+from backend.errors import BadFile, Conflict, InvalidRequest, SpindleError
 from backend.formats import (
     NEEDS_MAPPING,
     SNIFFED_BYTES,
@@ -91,7 +91,9 @@ class Uploads:
         slow_reader: Reader | None = None,
         stop_readers: Callable[[], None] = lambda: None,
         unpack: Unpacker = entries,
+        judge: Callable[[Ride], None] = lambda _: None,
     ) -> None:
+        """judge: told of each ride that was made, before its file is answered for."""
         self._store = store
         self._answers = TableAnswers(store.objects)
         self._settings = settings or UploadSettings()
@@ -99,6 +101,7 @@ class Uploads:
         self._slow_reader = slow_reader or reader
         self._stop_readers = stop_readers
         self._unpack = unpack
+        self._judge = judge
         self._lanes = Lanes(self._process, self.get)
 
     def close(self) -> None:
@@ -198,14 +201,14 @@ class Uploads:
         more = len(uploads) > limit
         return {"items": uploads[:limit], "next": uploads[limit - 1].id if more else None}
 
-    def question(self, upload_id: str) -> TableQuestion:
-        """What must be said of an upload's table before it is read.
+    def question(self, upload_id: str, answer: TableAnswer | None = None) -> TableQuestion:
+        """What must be said of an upload's table before it is read; answer: beside what was said.
 
         Raises NotFound; Conflict when it waits for no answer.
         """
         upload = self.get(upload_id)
         if upload.code == NEEDS_MAPPING:
-            outcome = self._slow_reader(self._path(upload), upload.name)
+            outcome = self._slow_reader(self._path(upload), upload.name, table_answer=answer)
             if outcome.question is not None:
                 return outcome.question
         raise Conflict(f"Upload {upload_id} waits for no answer.", code="nothing_asked")
@@ -263,7 +266,11 @@ class Uploads:
             # The same bytes may have become a ride while these were read.
             if (twin := self._twin(upload)) is not None:
                 return twin
-            return self._store_rides(self.get(upload.id), outcome)
+            concluded = self._store_rides(self.get(upload.id), outcome)
+        for ride_id in concluded.ride_ids:
+            with suppress(SpindleError):
+                self._judge(self._store.rides.get(ride_id))
+        return self.get(upload.id)
 
     def _store_rides(self, upload: Upload, outcome: Outcome) -> Upload:
         """Make rides of what was read, or fill, replace or leave those that are here; say so."""

@@ -62,7 +62,7 @@ def test_a_table_that_does_not_say_its_units_is_asked_about_once(
 ) -> None:
     page = open_desk(address=fresh.url).open("/rides")
     drop_file(page, "first.csv", table("2026-05-01 10"))
-    page.get_by_role("button", name="Say units and zone of first.csv").click()
+    page.get_by_role("button", name="Answer questions about first.csv").click()
     dialog = page.get_by_role("dialog")
     expect(dialog.get_by_test_id("table-columns")).to_contain_text("5.0 · 5.0 · 5.0")
     reading = dialog.get_by_role("button", name="Read the file")
@@ -87,6 +87,45 @@ def test_a_table_that_does_not_say_its_units_is_asked_about_once(
     known.get_by_role("button", name="Forget what was said of time, speed, cadence").click()
     expect(known).to_have_count(0)
     assert fresh.get("/tables")["items"] == []
+
+
+def test_whose_a_power_is_what_a_column_is_and_how_a_date_is_read_are_asked(
+    open_desk: OpenDesk, fresh: SpindleServer
+) -> None:
+    rows = [f"9/5/2025 5:{s // 60:02}:{s % 60:02} PM,13.42,36,1{s},n/a" for s in range(120)]
+    data = "\n".join(["time,speed (mph),pack,power,cadence", *rows, "9/5/2025 5:30 PM,9,36,99,70"])
+    page = open_desk(address=fresh.url).open("/rides")
+    drop_file(page, "logger.csv", data.encode())
+    page.get_by_role("button", name="Answer questions about logger.csv").click()
+    dialog = page.get_by_role("dialog")
+    reading = dialog.get_by_role("button", name="Read the file")
+    dialog.get_by_label("Time zone of its times").fill("Europe/Berlin")
+
+    unread = dialog.locator("label", has_text="120 cells of “cadence” cannot be read")
+    expect(unread.locator(".code")).to_have_text("n/a")
+    unread.locator("select").select_option("None of these: kept under its own name")
+    dialog.get_by_label("What “pack” is").select_option("battery_voltage_v")
+    dates = dialog.get_by_role("group", name="A date such as 9/5/2025 is")
+    expect(dates.get_by_role("button")).to_have_text(["9 May 2025", "5 September 2025"])
+    expect(reading).to_be_disabled()
+    dates.get_by_role("button", name="5 September 2025").click()
+    reading.click()
+
+    # Beside a voltage the power may be anybody's.
+    expect(dialog).to_contain_text("One more question follows from what you said.")
+    expect(reading).to_be_disabled()
+    dialog.get_by_label("Whose power is in “power”?").select_option("battery_power_w")
+    reading.click()
+    row = page.get_by_test_id("import-list").locator("li")
+    expect(row).to_have_attribute("data-state", "complete")
+    (ride,) = [one for one in fresh.get("/rides")["items"] if one["name"] == "logger"]
+    assert ride["started_at"][:19] == "2025-09-05T15:00:00"
+    page.goto(f"{fresh.url}/settings")
+    known = page.get_by_test_id("answered-tables")
+    expect(known).to_contain_text("cadence: kept under its own name · pack: Battery voltage")
+    expect(known).to_contain_text("power: Battery power · month before day · Europe/Berlin")
+    known.get_by_role("button", name="Forget").click()
+    fresh.ask("DELETE", f"/rides/{ride['id']}")
 
 
 def done_of(page: Page) -> int:

@@ -22,6 +22,8 @@ from tests.fakes.server import SpindleServer, eventually
 WRONG = [
     ["device"],
     ["ride", "export", "not-a-number"],
+    ["ride", "import", "a.csv", "--column", "power"],
+    ["ride", "import", "a.csv", "--dates", "year_first"],
     ["api", "GET"],
     ["api", "FETCH", "/devices"],
     ["api", "PATCH", "/devices/{unit}/config", "no-equals-sign"],
@@ -219,6 +221,32 @@ def test_a_file_that_is_no_ride_ends_with_one_and_the_reason(
 
     assert result.returncode == 1
     assert "letter.fit" in result.stderr
+
+
+def test_a_table_is_read_as_the_options_say(server: SpindleServer, tmp_path: Path) -> None:
+    file = tmp_path / "logger.csv"
+    rows = "".join(f"9/5/2025 5:12:{s:02} PM,13.42,36,1{s},{s}\n" for s in range(60))
+    file.write_text(f"timestamp,speed,voltage,power,trip\n{rows}")
+    known = ("--time-zone", "Europe/Berlin", "--speed-unit", "mph", "--dates", "month_first")
+
+    lacks = spindle(server, "ride", "import", file)
+    nearly = spindle(server, "ride", "import", file, *known, "--column", "power=watts")
+    meanings = ("--column", "power=battery_power_w", "--column", "trip=distance_m")
+    read = spindle(
+        server, "ride", "import", file, *known, *meanings, "--distance-unit", "m", "--json"
+    )
+
+    assert (lacks.returncode, nearly.returncode) == (1, 1)
+    for option in ("--dates (day_first, month_first)", "--time-zone", "--speed-unit (km/h, m/s,"):
+        assert option in lacks.stderr
+    assert "'power=CHANNEL' (rider_power_w, motor_power_w, battery_power_w, none)" in lacks.stderr
+    assert "power cannot be watts" in nearly.stderr
+    assert read.returncode == 0, read.stderr
+    ride = server.get(f"/rides/{json.loads(read.stdout)['ride_ids'][0]}")
+    assert ride["started_at"][:19] == "2025-09-05T15:12:00"
+    names = {channel["name"] for channel in ride["channels"]}
+    assert {"speed_kmh", "battery_power_w", "distance_m"} <= names
+    assert "rider_power_w" not in names
 
 
 def test_any_request_of_the_api_is_sent_from_the_shell(

@@ -167,6 +167,20 @@ def test_a_file_with_more_channels_replaces_one_with_fewer_and_not_the_other_way
     assert {"rider_power_w", "cadence_rpm"} <= channels
 
 
+def test_a_file_without_a_wrong_position_replaces_one_with_it(shop: Shop) -> None:
+    """A receiver that was a degree off for a second: nobody rides 111 km in it."""
+    jumped = [dict(row) for row in RIDDEN]
+    jumped[300]["position_lat"] = 49.0
+    (ride_id,) = shop.take("jumped.fit", fit_file(jumped)).ride_ids
+
+    sent = shop.take("right.fit", WHOLE)
+
+    assert (sent.code, shop.ride_ids) == ("made_whole", [ride_id])
+    assert shop.take("jumped again.fit", fit_file(jumped[:-1])).code == "duplicate"
+    reader = shop.store.rides.reader(ride_id)
+    assert np.isfinite(reader.values(["latitude_deg"])["latitude_deg"]).all()
+
+
 def test_parts_that_each_have_what_the_other_lacks_are_both_kept(shop: Shop) -> None:
     (first,) = shop.take("begin.fit", fit_file(RIDDEN[:400])).ride_ids
 
