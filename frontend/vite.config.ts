@@ -34,7 +34,7 @@ const GROUPS = [
   chunk('apart', 'shared/config/(SettingsDifference|SmallTable)'),
   chunk('rides', `features/(imports/(?!Table|table)|rides/(?!${OTHER_RIDES.join('|')}))`),
   chunk('replay', 'features/rides/replay/(?!proposals)'),
-  chunk('ride', 'features/rides/ride/(?!from_file/)'),
+  chunk('ride', 'features/rides/ride/(?!from_file/|doubts/)'),
   chunk('comparison', 'features/rides/comparison/'),
   chunk('insight', 'features/rides/insight'),
   chunk('service', 'features/service/(?!Guide|OnSheet|on_sheet|Restore|restored)'),

@@ -1817,7 +1817,7 @@ export interface paths {
         head?: never;
         /**
          * Patch Ride
-         * @description Changes name and notes; what was measured cannot be changed.
+         * @description Changes name, notes, tags and what is accepted; nothing that was measured.
          */
         patch: operations["patch_ride"];
         trace?: never;
@@ -2975,31 +2975,61 @@ export interface components {
         };
         /**
          * Charge
-         * @description Charge used, and how far the rest would have gone on a ride like this one.
+         * @description What was used of the charge, and how far the rest goes on a ride like this one.
          *
-         *     The band is of the reading's step, and of the thirds of the way that took most and least.
+         *     The estimate says nothing of another road, wind or mode.
          */
         Charge: {
             /** Soc Pct First */
             soc_pct_first: number;
             /** Soc Pct Last */
             soc_pct_last: number;
-            /** Used Pct */
+            /**
+             * Used Pct
+             * @description What it fell by, summed up: more than a full charge where the battery was changed.
+             */
             used_pct: number;
+            /** Jumps */
+            jumps: components["schemas"]["ChargeJump"][];
             /**
              * Step Pct
-             * @description The finest change of the reading.
+             * @description The finest change that the reading shows.
              */
             step_pct: number;
-            /** Range Km */
+            /**
+             * Range Km
+             * @description With the charge left at the end.
+             */
             range_km: number | null;
             /** Range Km Least */
             range_km_least: number | null;
             /**
              * Range Km Most
-             * @description Null also where a third took nothing.
+             * @description Null where the leanest third of the distance took nothing.
              */
             range_km_most: number | null;
+            /**
+             * Full Range Km
+             * @description Of a whole charge on a ride like this one.
+             */
+            full_range_km: number | null;
+            /**
+             * Refused
+             * @description Why there is no range.
+             */
+            refused: ("no_distance" | "short_way" | "charged" | "little_used") | null;
+        };
+        /**
+         * ChargeJump
+         * @description A charge on the way, or another battery.
+         */
+        ChargeJump: {
+            /** At S */
+            at_s: number;
+            /** From Pct */
+            from_pct: number;
+            /** To Pct */
+            to_pct: number;
         };
         /**
          * Check
@@ -3084,7 +3114,7 @@ export interface components {
         };
         /**
          * Climb
-         * @description By heights averaged over 5 m of way; a climb counts once it is 3 m high.
+         * @description By heights averaged over 5 m of distance; a climb counts once it is 3 m high.
          */
         Climb: {
             /** Ascent M */
@@ -4010,6 +4040,39 @@ export interface components {
             comment: string;
         };
         /**
+         * Doubt
+         * @description A figure of the ride, and the other one, or the limit, that it does not agree with.
+         */
+        Doubt: {
+            /**
+             * Code
+             * @enum {string}
+             */
+            code: "wheel_and_track" | "stated_distance" | "stated_time" | "stated_work" | "rows_left_out" | "values_left_out" | "speed" | "mean_speed" | "power" | "climb_rate" | "climb_share" | "motor_work";
+            /** Figure */
+            figure: number;
+            /** Against */
+            against: number;
+            /** Unit */
+            unit: string;
+            /**
+             * Channel
+             * @description Whose values are left out.
+             */
+            channel: string | null;
+            /**
+             * Seconds
+             * @description Over which the power is the mean.
+             */
+            seconds: number | null;
+            /**
+             * Accepted
+             * @description By somebody who knows better: it keeps the ride from no record.
+             * @default false
+             */
+            accepted: boolean;
+        };
+        /**
          * DriftTrend
          * @description Zero = a step for each calibration + temperature + age + scatter, by least squares.
          */
@@ -4736,11 +4799,25 @@ export interface components {
             };
             /**
              * Values Dropped
-             * @description By channel: what no bike can do, and single samples far from both neighbours.
+             * @description By channel: what no bike can do, single samples far from both neighbours, positions that
+             *     nobody could have reached.
              */
             values_dropped: {
                 [key: string]: number;
             };
+            /**
+             * Restarts
+             * @description By channel, or `time`: how often a count began anew; it goes on where it was.
+             */
+            restarts: {
+                [key: string]: number;
+            };
+            /**
+             * Turned
+             * @description Channels whose sign was turned: a controller mounted the other way round.
+             * @default []
+             */
+            turned: string[];
             /**
              * Fields Unread
              * @description By name, in how many rows: text, bytes and lists of numbers.
@@ -4750,9 +4827,9 @@ export interface components {
             };
             /**
              * Taken As
-             * @description What the file does not say, and what it was taken as: `time_zone`, `rows_per_second`, a
-             *     column's unit. `start`: where its date is from. `clock`: the zone that its two clocks, one of
-             *     UTC, are apart.
+             * @description What the file does not say, and what it was taken as: `time_zone`, `rows_per_second`,
+             *     `date_order`, a column's unit, its channel or `left out`. `start`: where its date is from.
+             *     `clock`: the zone that its two clocks, one of UTC, are apart.
              */
             taken_as: {
                 [key: string]: string;
@@ -5643,6 +5720,22 @@ export interface components {
              * @description What a program sends after `Authorization: Bearer`.
              */
             secret: string;
+        };
+        /**
+         * OfferedChannel
+         * @description What an owner can say that a column is.
+         */
+        OfferedChannel: {
+            /** Name */
+            name: string;
+            /** Unit */
+            unit: string;
+            /**
+             * Units
+             * @description In which its numbers may be, where that is never taken for granted.
+             * @default []
+             */
+            units: string[];
         };
         /** OwnPassword */
         OwnPassword: {
@@ -6635,6 +6728,11 @@ export interface components {
              * @description Another device's recording of the same ride, which is kept beside it.
              */
             same_ride_as: number | null;
+            /**
+             * Outdone
+             * @description A better recording of the same ride counts in sums and records in its place.
+             */
+            outdone: boolean;
             /** Tags */
             tags: string[];
             /** @description Null without positions, and until a moment after the ride came. */
@@ -6644,6 +6742,11 @@ export interface components {
              * @description Mean speeds over 64 equal times; empty without a speed.
              */
             speed_line_kmh: (number | null)[];
+            /**
+             * Doubts
+             * @description Figures that disagree or cannot be. The ride is in no record until somebody accepts them. Empty until a moment after the ride came.
+             */
+            doubts: components["schemas"]["Doubt"][];
         };
         /**
          * RideChannel
@@ -6803,7 +6906,7 @@ export interface components {
              * Range Refused
              * @description Why there is no range; null with one.
              */
-            range_refused: ("no_charge" | "no_distance" | "short_way" | "charged" | "little_used") | null;
+            range_refused: "no_charge" | ("no_distance" | "short_way" | "charged" | "little_used") | null;
         };
         /**
          * RideEvent
@@ -6880,6 +6983,11 @@ export interface components {
              * @description All of them, anew.
              */
             tags?: string[] | null;
+            /**
+             * Doubts Accepted
+             * @description Whether somebody accepts all that is doubtful of the ride.
+             */
+            doubts_accepted?: boolean | null;
         };
         /** RidePedalling */
         RidePedalling: {
@@ -6958,6 +7066,11 @@ export interface components {
             moving_s: number | null;
             /** Distance Km */
             distance_km: number | null;
+            /**
+             * Distance Source
+             * @description By what it was found: positions alone where there is neither odometer nor speed.
+             */
+            distance_source: ("odometer" | "speed" | "positions") | null;
             /** Rider Wh */
             rider_wh: number | null;
             /** Rider Excluded S */
@@ -8136,6 +8249,18 @@ export interface components {
              * @description Of rows without a time.
              */
             rows_per_second: number | null;
+            /**
+             * Date Order
+             * @description How 03/04 is read: 3 April or 4 March.
+             */
+            date_order: ("day_first" | "month_first") | null;
+            /**
+             * Channels
+             * @description By column, what it is; `""` for none of ours.
+             */
+            channels: {
+                [key: string]: string;
+            };
         };
         /**
          * TableAnswerRequest
@@ -8156,6 +8281,18 @@ export interface components {
             };
             /** Rows Per Second */
             rows_per_second?: number | null;
+            /**
+             * Date Order
+             * @description How 03/04 is read: 3 April or 4 March.
+             */
+            date_order?: ("day_first" | "month_first") | null;
+            /**
+             * Channels
+             * @description What a column is, by its name, whether that is asked or not: a name of `offered_channels`; `""` for none of them, its numbers stay under its own name.
+             */
+            channels?: {
+                [key: string]: string;
+            };
         };
         /**
          * TableColumn
@@ -8182,10 +8319,22 @@ export interface components {
             units: string[];
             /**
              * Samples
-             * @description Of the first rows.
+             * @description Of the first rows; of a column that cannot be read, of what stands there.
              * @default []
              */
             samples: string[];
+            /**
+             * Channels
+             * @description What it may be where that must be stated, `""` to leave it out; empty: nothing is asked.
+             * @default []
+             */
+            channels: string[];
+            /**
+             * Unread
+             * @description Cells that hold something that is no number.
+             * @default 0
+             */
+            unread: number;
         };
         /**
          * TableComparison
@@ -8249,8 +8398,15 @@ export interface components {
              * @description Its rows have no time.
              */
             rows_per_second: boolean;
+            /**
+             * Date Order
+             * @description Whether 03/04 is in April or in March.
+             */
+            date_order: boolean;
             /** Columns */
             columns: components["schemas"]["TableColumn"][];
+            /** Offered Channels */
+            offered_channels: components["schemas"]["OfferedChannel"][];
             answer: components["schemas"]["TableAnswer"] | null;
         };
         /** TableReview */
@@ -8697,6 +8853,11 @@ export interface components {
             part_of: string | null;
             /** @description Of a container; null for any other file. */
             parts: components["schemas"]["UploadParts"] | null;
+            /**
+             * Doubtful Rides
+             * @description How many of its rides have figures that disagree or cannot be.
+             */
+            doubtful_rides: number;
         };
         /** UploadList */
         UploadList: {

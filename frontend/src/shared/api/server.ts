@@ -464,7 +464,10 @@ export class Server {
     return (await body(this.http.GET('/api/v1/rides/{ride_id}/cuts', this.rideAt(id)))).items
   }
 
-  changeRide(id: number, change: { name?: string; notes?: string }): Promise<Ride> {
+  changeRide(
+    id: number,
+    change: { name?: string; notes?: string; doubts_accepted?: boolean },
+  ): Promise<Ride> {
     return body(this.http.PATCH('/api/v1/rides/{ride_id}', { ...this.rideAt(id), body: change }))
   }
 

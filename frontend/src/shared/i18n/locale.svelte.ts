@@ -58,6 +58,12 @@ export class Locale {
     return new Intl.DateTimeFormat(tags[this.language], format).format(Date.parse(iso))
   }
 
+  /** A date such as 2026-07-13, in full. */
+  date(date: string): string {
+    const format = { dateStyle: 'long', timeZone: 'UTC' } as const
+    return new Intl.DateTimeFormat(tags[this.language], format).format(Date.parse(date))
+  }
+
   /** A date such as 2026-07-13, short; by_month: its month alone. */
   day(date: string, by_month = false): string {
     const format = { month: 'short', timeZone: 'UTC' } as const

@@ -38,6 +38,25 @@ it('has a reason for each of eight figures of a ride with a heart rate only', ()
   expect(figures.every(({ note }) => note !== '' && !note.includes('—'))).toBe(true)
 })
 
+it('gives as a reason what is missing, not what is there', () => {
+  const note = (channels: string[], name: string) => figuresOf(ride(channels, {}))[name]?.note
+
+  expect(note(['altitude_m'], 'climb')).toBe('height without a distance')
+  expect(note([], 'climb')).toBe('no height recorded')
+  expect(note(['rider_torque_nm'], 'your_energy')).toBe('torque without a cadence')
+  expect(note(['battery_voltage_v'], 'from_battery')).toBe('voltage without a current')
+  expect(note(['battery_current_a'], 'from_battery')).toBe('current without a voltage')
+})
+
+it('says by what the distance was found', () => {
+  const note = (source: string) =>
+    figuresOf(ride([], { distance_km: 10, distance_source: source }))['distance']?.note
+
+  expect(note('odometer')).toBe('as its odometer counted')
+  expect(note('speed')).toBe('speed over time')
+  expect(note('positions')).toBe('along its track')
+})
+
 it('distinguishes a motor torque that was only demanded from one that was not recorded', () => {
   const demanded = figuresOf(ride([], {}, 'demanded'))
   expect(demanded['motor_energy']?.note).toBe('only requested, not measured')

@@ -19,6 +19,12 @@ interface Speech {
   units: Units
 }
 
+const SOURCES = {
+  odometer: 'odometer',
+  speed: 'from_speed',
+  positions: 'from_positions',
+} as const
+
 /** Rider and motor stand side by side and are never added; their ratio may be given. */
 export function headline(
   ride: Ride,
@@ -34,13 +40,13 @@ export function headline(
     value == null ? say(missing) : note
   const meanTop = (mean: number | null | undefined, top: number | null | undefined) =>
     say('mean_top', { mean: units.text(mean, 'W'), top: units.text(top, 'W') })
-  const motorless = ride.motor_torque_meaning === 'demanded' ? 'demand_only' : 'none_motor'
+  const missing = reasons(ride, has)
   const ratio = s?.rider_wh && s.motor_wh != null ? s.motor_wh / s.rider_wh : null
   return [
     {
       name: 'distance',
       value: figure(s?.distance_km, 'km'),
-      note: hint(s?.distance_km, say(has('distance_m') ? 'odometer' : 'from_speed'), 'none_speed'),
+      note: hint(s?.distance_km, say(SOURCES[s?.distance_source ?? 'speed']), 'none_distance'),
     },
     {
       name: 'moving',
@@ -63,25 +69,25 @@ export function headline(
     {
       name: 'climb',
       value: figure(energy?.climb?.ascent_m, 'm of altitude'),
-      note: climbNote(energy?.climb?.descent_m, waits && has('altitude_m'), { say, units }),
+      note: climbNote(energy, has('altitude_m'), waits, { say, units }),
     },
     {
       name: 'your_energy',
       token: 'rider',
       value: figure(s?.rider_wh, 'Wh'),
-      note: hint(s?.rider_wh, meanTop(s?.rider_power_w_mean, s?.rider_power_w_max), 'none_rider'),
+      note: hint(s?.rider_wh, meanTop(s?.rider_power_w_mean, s?.rider_power_w_max), missing.rider),
     },
     {
       name: 'motor_energy',
       token: 'motor',
       value: figure(s?.motor_wh, 'Wh'),
-      note: hint(s?.motor_wh, meanTop(s?.motor_power_w_mean, s?.motor_power_w_max), motorless),
+      note: hint(s?.motor_wh, meanTop(s?.motor_power_w_mean, s?.motor_power_w_max), missing.motor),
     },
     {
       name: 'from_battery',
       token: 'battery',
       value: figure(s?.battery_wh, 'Wh'),
-      note: hint(s?.battery_wh, batteryNote(ride, { say, locale, units }), 'none_battery'),
+      note: hint(s?.battery_wh, batteryNote(ride, { say, locale, units }), missing.battery),
     },
     {
       name: 'per_yours',
@@ -89,6 +95,19 @@ export function headline(
       note: hint(ratio, say('wh_for_each'), 'none_ratio'),
     },
   ]
+}
+
+/** Why an energy is missing, by what is there. */
+function reasons(
+  ride: Ride,
+  has: (name: string) => boolean,
+): Record<'rider' | 'motor' | 'battery', Key> {
+  const [volts, amperes] = [has('battery_voltage_v'), has('battery_current_a')]
+  return {
+    rider: has('rider_torque_nm') && !has('cadence_rpm') ? 'none_cadence' : 'none_rider',
+    motor: ride.motor_torque_meaning === 'demanded' ? 'demand_only' : 'none_motor',
+    battery: volts === amperes ? 'none_battery' : volts ? 'none_current' : 'none_voltage',
+  }
 }
 
 function batteryNote({ summary }: Ride, { say, units }: Speech): string {
@@ -100,11 +119,12 @@ function batteryNote({ summary }: Ride, { say, units }: Speech): string {
 }
 
 function climbNote(
-  descent_m: number | undefined,
+  energy: RideEnergy | null,
+  has_height: boolean,
   waits: boolean,
   { say, units }: Omit<Speech, 'locale'>,
 ): string {
-  if (waits) return '…'
-  if (descent_m === undefined) return say('none_height')
-  return say('of_heights', { descent: units.text(descent_m, 'm of altitude') })
+  if (waits && has_height) return '…'
+  if (!energy?.climb) return say(has_height ? 'none_height_distance' : 'none_height')
+  return say('of_heights', { descent: units.text(energy.climb.descent_m, 'm of altitude') })
 }

@@ -1,7 +1,7 @@
 // @vitest-environment happy-dom
 /* Goal: what recorded a ride is named in words where the file has words, and never guessed. */
 import { expect, it } from 'vitest'
-import type { Say } from '../words'
+import type { Say } from './words'
 import { deviceLine, deviceName, wordOf } from './instruments'
 
 const say: Say = (key, values) => [key, ...Object.values(values ?? {})].join(' ')

@@ -1,7 +1,7 @@
 // The devices that recorded a ride, in words.
 import type { Ride } from '$shared/api/types'
-import en from '$messages/en/ride.json'
-import type { Key, Say } from '../words'
+import en from '$messages/en/from_file.json'
+import type { Key, Say } from './words'
 
 type Instrument = Ride['instruments'][number]
 

@@ -2,11 +2,14 @@
 import { fill, type Locale } from '$shared/i18n/locale.svelte'
 import { expect, test } from 'vitest'
 import { intakeLines } from './intake_lines'
-import en from '$messages/en/ride.json'
-import type { Say } from '../words'
+import en from '$messages/en/from_file.json'
+import type { Say } from './words'
 
 const say: Say = (key, values) => fill(en[key], values)
-const locale = { number: String, lookup: (_key: string, name: string) => name } as unknown as Locale
+const locale = {
+  number: String,
+  lookup: (key: string, name: string) => (key === 'column.distance_m' ? 'Distance' : name),
+} as unknown as Locale
 const nothing = {
   rows_read: 60,
   rows_kept: 60,
@@ -15,6 +18,8 @@ const nothing = {
   rows_moved: 0,
   rows_dropped: {},
   values_dropped: {},
+  restarts: {},
+  turned: [],
   fields_unread: {},
   taken_as: {},
 }
@@ -37,8 +42,33 @@ test('what is not simply a row is listed with its count and reason', () => {
     '1 with another of the same time, which they complete',
     '1 without a time',
     '2 with a clock that jumped away',
-    '1 impossible values of distance_m are left out',
+    '1 impossible values of Distance are left out',
     'left_power_phase is no single number (60 records)',
+  ])
+})
+
+test('counts that began anew and signs that were turned are listed', () => {
+  const intake = {
+    ...nothing,
+    restarts: { time: 1, distance_m: 3 },
+    turned: ['speed_kmh'],
+  }
+
+  expect(intakeLines(intake, say, locale)).toEqual([
+    'Its seconds began anew 1 times; the rows go on where they were',
+    'Distance began anew 3 times; what was ridden each time is added up',
+    'speed kmh stood with the opposite sign and was turned: ' +
+      'a controller mounted the other way round',
+  ])
+})
+
+test('what a column is and how its dates are written is listed as its owner said it', () => {
+  const taken_as = { date_order: 'month_first', way: 'distance_m, km', foo: 'left out' }
+
+  expect(intakeLines({ ...nothing, taken_as }, say, locale)).toEqual([
+    'Its dates have the month before the day, as its owner said',
+    'way is Distance (km), as its owner said',
+    'foo is kept under its own name, as its owner said',
   ])
 })
 
