@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from backend.formats.fit.fields import Described, channel_name, text
+from backend.formats.fit.fields import Described, channel_name, own_field, text
 from backend.formats.fit.layout import Definition
 from backend.formats.fit.profile import PROFILE_NAMES, RECORD_FIELDS, ProfileField
-from backend.formats.fit_numbers import BASE_TYPES, UINT16
+from backend.formats.fit_numbers import BASE_TYPES, RECORD, UINT16
+from backend.formats.units import factor_between
 
-RECORD = 20
 OWNER, NUMBER, BASE, NAME, UNIT, NATIVE_MESSAGE, NATIVE_FIELD = 0, 1, 2, 3, 8, 14, 15
 
 MOTOR_POWER, BATTERY_LEVEL, ASSIST_MODE = 82, 118, 119
@@ -29,23 +29,6 @@ E_BIKE_NAMES = {
     "assist_mode": ASSIST_MODE,
     "assist_level": ASSIST_MODE,
     "ebike_assist_mode": ASSIST_MODE,
-}
-# How apps write units, as (unit of the profile, factor to it).
-UNITS = {
-    "watts": ("W", 1.0),
-    "watt": ("W", 1.0),
-    "kw": ("W", 1000.0),
-    "percent": ("%", 1.0),
-    "km/h": ("m/s", 1 / 3.6),
-    "kph": ("m/s", 1 / 3.6),
-    "kmh": ("m/s", 1 / 3.6),
-    "mph": ("m/s", 0.44704),
-    "km": ("m", 1000.0),
-    "c": ("degC", 1.0),
-    "°c": ("degC", 1.0),
-    "celsius": ("degC", 1.0),
-    "bpm": ("bpm", 1.0),
-    "rpm": ("rpm", 1.0),
 }
 
 
@@ -73,15 +56,15 @@ def described(name: str, unit: str, base: int, meant: ProfileField | None) -> De
     that name is. meant: the profile's field that it is, in a unit that can be one of it."""
     taken = name in PROFILE_NAMES or name[:1].isdigit()
     own = f"developer_{name}" if taken else name
-    known, factor = UNITS.get(unit.strip().lower(), (unit.strip(), 1.0))
-    if meant is None or (unit and meant.unit and known != meant.unit):
+    factor = factor_between(unit, meant.unit) if meant and unit and meant.unit else 1.0
+    if meant is None or factor is None:
         return Described(own, unit, base)
     return Described(own, meant.unit, base, factor, meant.name)
 
 
 def number_of(data: bytes, definition: Definition, offset: int, number: int) -> int:
     """A whole number of a description; 0xFF where it has none."""
-    cell = next((f for f in definition.fields if f.number == number and f.developer is None), None)
+    cell = own_field(definition, number)
     if cell is None or cell.size not in (1, BASE_TYPES[UINT16].size):
         return 0xFF
     at = offset + cell.at

@@ -226,9 +226,14 @@ def add_up_rounds(table: Table) -> None:
     table.columns["distance"] = Column(distance, "m", 1 / ROUNDS_SCALE)
 
 
+def own_field(definition: Definition, number: int) -> Field | None:
+    """A message's field of that number that is no developer's; None where it has none."""
+    return next((f for f in definition.fields if f.number == number and f.developer is None), None)
+
+
 def text(data: bytes, definition: Definition, offset: int, number: int) -> str:
     """A text field of one message, "" when there is none."""
-    one = next((f for f in definition.fields if f.number == number and f.developer is None), None)
+    one = own_field(definition, number)
     if one is None:
         return ""
     raw = data[offset + one.at : offset + one.at + one.size]

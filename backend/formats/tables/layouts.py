@@ -11,8 +11,9 @@ from dataclasses import dataclass, field, replace
 from itertools import zip_longest
 
 from backend.formats.cells import number
-from backend.formats.tables.measures import UNITS, measure_of, plain_unit, split_unit, words
+from backend.formats.tables.measures import measure_of, split_unit, words
 from backend.formats.tables.text import cells_of, decoded
+from backend.formats.units import UNITS, plain_unit
 
 # Names of columns of moments, days or times of day, the first that fits counts; then of seconds
 # since something. What stands in them decides which of these they are.

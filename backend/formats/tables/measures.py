@@ -6,34 +6,10 @@ import re
 from dataclasses import dataclass, replace
 
 from backend.core.channels import ChannelSpec
-from backend.core.energy import KMH_PER_MS
 from backend.formats.columns import FIT_FIELDS, FieldRule
 from backend.formats.questions import OfferedChannel
+from backend.formats.units import UNITS, plain_unit
 
-# Unit as files write it, without case and spaces -> its quantity, our word, factor to the
-# channel's unit, and what is added after that.
-UNITS: dict[str, tuple[str, str, float, float]] = {
-    **dict.fromkeys(("km/h", "kmh", "kph", "kmph", "km/hr"), ("speed", "km/h", 1.0, 0.0)),
-    **dict.fromkeys(("mph", "mi/h", "mp/h"), ("speed", "mph", 1.609344, 0.0)),
-    **dict.fromkeys(("m/s", "mps", "ms"), ("speed", "m/s", KMH_PER_MS, 0.0)),
-    **dict.fromkeys(("m", "meter", "meters", "metres", "metre"), ("length", "m", 1.0, 0.0)),
-    **dict.fromkeys(("km", "kilometers", "kilometres"), ("length", "km", 1000.0, 0.0)),
-    **dict.fromkeys(("mi", "miles", "mile"), ("length", "mi", 1609.344, 0.0)),
-    **dict.fromkeys(("ft", "feet"), ("length", "ft", 0.3048, 0.0)),
-    **dict.fromkeys(("degc", "c", "°c", "celsius", "ºc"), ("temperature", "degC", 1.0, 0.0)),
-    **dict.fromkeys(("degf", "f", "°f", "fahrenheit"), ("temperature", "degF", 5 / 9, -160 / 9)),
-    **dict.fromkeys(("nm", "n-m", "n·m", "n*m"), ("torque", "Nm", 1.0, 0.0)),
-    **dict.fromkeys(("ft-lb", "lb-ft", "ftlb", "lbft"), ("torque", "ft-lb", 1.3558179, 0.0)),
-    **dict.fromkeys(("w", "watt", "watts"), ("power", "W", 1.0, 0.0)),
-    "kw": ("power", "kW", 1000.0, 0.0),
-    **dict.fromkeys(("rpm", "1/min"), ("cadence", "rpm", 1.0, 0.0)),
-    "bpm": ("heart_rate", "bpm", 1.0, 0.0),
-    **dict.fromkeys(("deg", "°", "degrees"), ("angle", "deg", 1.0, 0.0)),
-    **dict.fromkeys(("%", "pct", "percent"), ("share", "%", 1.0, 0.0)),
-    "1": ("share", "1", 100.0, 0.0),
-    "v": ("voltage", "V", 1.0, 0.0),
-    "a": ("current", "A", 1.0, 0.0),
-}
 # Quantities whose unit is never taken for granted, with what may be said of each channel.
 UNIT_CHOICES: dict[str, tuple[str, ...]] = {
     "speed_kmh": ("km/h", "m/s", "mph"),
@@ -238,11 +214,6 @@ def named_unit(header: str, of_cells: str | None) -> str | None:
     """The unit that a header or else its cells name, in our word; None for none that we know."""
     rule = UNITS.get(plain_unit(split_unit(header)[1] or of_cells or ""))
     return rule[1] if rule else None
-
-
-def plain_unit(unit: str) -> str:
-    """A unit without case and spaces, as `UNITS` has it."""
-    return unit.strip().lower().replace(" ", "")
 
 
 def words(name: str) -> str:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import islice
 from typing import Literal
 
 import numpy as np
@@ -55,10 +56,7 @@ def numbers_of(cells: Sequence[str], decimal: Mark) -> Numbers:
     matches = {place: WRITTEN.fullmatch(cells[place].strip()) for place in odd}
     written = [match.group(1) for match in matches.values() if match is not None]
     plain = (cell.strip() for cell in cells if "." in cell and "," not in cell)
-    mark = column_mark(
-        [*written[:LOOKED_AT], *(cell for cell, _ in zip(plain, range(LOOKED_AT), strict=False))]
-    )
-    mark = mark or decimal
+    mark = column_mark([*written[:LOOKED_AT], *islice(plain, LOOKED_AT)]) or decimal
     if mark == ",":
         with_point = (
             place for place, cell in enumerate(cells) if "." in cell and place not in matches

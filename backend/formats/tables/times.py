@@ -7,6 +7,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from datetime import date, datetime, timedelta, tzinfo
+from itertools import islice
 
 import numpy as np
 
@@ -16,6 +17,7 @@ from backend.formats.fit_numbers import EPOCH_S
 from backend.formats.local_times import times_in_zone
 from backend.formats.tables.dates import (
     DateOrder,
+    Dates,
     dates_of,
     moment_or_written,
     serial_moments,
@@ -100,7 +102,7 @@ def columns_of_time(layout: Layout, body: Sequence[Sequence[str]]) -> TimeColumn
 def sample(body: Sequence[Sequence[str]], place: int) -> list[str]:
     """The first cells of a column that hold something."""
     cells = (row[place].strip() for row in body if place < len(row))
-    return [cell for cell, _ in zip((c for c in cells if c), range(ROWS_LOOKED_AT), strict=False)]
+    return list(islice((cell for cell in cells if cell), ROWS_LOOKED_AT))
 
 
 def kind_of(cells: Sequence[str]) -> str | None:
@@ -118,7 +120,7 @@ def kind_of(cells: Sequence[str]) -> str | None:
 
 def kind_of_cell(cell: str) -> str | None:
     """As of `kind_of`, of one cell."""
-    value = number(cell.replace(",", "."))
+    value = decimal(cell)
     if value == value:
         numbers = np.array([value])
         if np.isfinite(unix_numbers(numbers))[0]:
@@ -175,22 +177,17 @@ def moments(
     cells: Sequence[str], zone: tzinfo | None, order: DateOrder | None, known_day: date | None
 ) -> Times:
     """Dates with their zone, and such without in `zone`, None for UTC."""
-    numbers = np.array([number(cell.replace(",", ".")) for cell in cells], np.float64)
+    numbers = np.array([decimal(cell) for cell in cells], np.float64)
     unix_s = unix_numbers(numbers)
-    if np.isfinite(unix_s).any():
-        rest = [
-            "" if np.isfinite(second) else cell for second, cell in zip(unix_s, cells, strict=True)
-        ]
-        dates = dates_of(rest, order, known_day)
-        moments_read = dates.moments
-    elif serial := serial_moments(numbers):
-        dates, moments_read = None, serial
+    if serial := serial_moments(numbers):
+        dates = Dates(serial)
     else:
-        dates = dates_of(cells, order, known_day)
-        moments_read = dates.moments
-    seconds = np.where(np.isnan(unix_s), times_in_zone(moments_read, zone), unix_s)
-    naive = any(moment is not None and moment.tzinfo is None for moment in moments_read)
-    return Times(seconds, naive, dates is not None and dates.order_open)
+        is_read = np.isfinite(unix_s)
+        words = ["" if done else cell for done, cell in zip(is_read, cells, strict=True)]
+        dates = dates_of(words, order, known_day)
+    seconds = np.where(np.isnan(unix_s), times_in_zone(dates.moments, zone), unix_s)
+    naive = any(moment is not None and moment.tzinfo is None for moment in dates.moments)
+    return Times(seconds, naive, dates.order_open)
 
 
 def exact(times: Times, since: tuple[int, float] | None, body: Sequence[Sequence[str]]) -> Times:
@@ -221,11 +218,10 @@ def row_seconds(
         rows: Values = np.arange(len(body), dtype=np.float64)
         return rows * (spacing if spacing else np.nan), 0
     place, scale = since
-    cells = texts(body, place)
     seconds: Values = (
-        np.array([clock_seconds(cell) for cell in cells])
+        np.array([clock_seconds(cell) for cell in texts(body, place)])
         if scale == 0.0
-        else np.array([number(cell.replace(",", ".")) for cell in cells]) * scale
+        else column(body, place) * scale
     )
     # Over midnight a count of the day begins anew.
     steps = np.diff(seconds, prepend=seconds[:1])
@@ -328,5 +324,9 @@ def plain(cell: str) -> bool:
 
 def column(body: Sequence[Sequence[str]], place: int) -> Values:
     """The numbers of a column (n,), NaN for what is none."""
-    return np.array([number(row[place].replace(",", ".")) if place < len(row) else np.nan
-                     for row in body], np.float64)  # fmt: skip
+    return np.array([decimal(cell) for cell in texts(body, place)], np.float64)
+
+
+def decimal(cell: str) -> float:
+    """A number with a point or a comma; NaN for what is none."""
+    return number(cell.replace(",", "."))
