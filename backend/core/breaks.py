@@ -28,7 +28,7 @@ AROUND_SHARES = 0.5, 2.0
 AROUND_STEPS = 10
 RIDDEN_S = 600.0
 MOVING_MS = 0.5
-LATITUDE, LONGITUDE, DISTANCE = POSITION_CHANNELS = "latitude_deg", "longitude_deg", "distance_m"
+LATITUDE, LONGITUDE, DISTANCE = "latitude_deg", "longitude_deg", "distance_m"
 
 
 def long_steps(times_us: TimesUs) -> Mask:
@@ -44,8 +44,8 @@ def find_breaks(
 ) -> Mask:
     """Which steps (n - 1,) from row to row are pauses.
 
-    columns: POSITION_CHANNELS (n,) as far as there are some, missing as NaN. pauses: of the
-    device's timer; a step that one of them covers is a pause however short it is.
+    columns: DISTANCE, LATITUDE, LONGITUDE (n,) as far as there are some, missing as NaN. pauses: of
+    the device's timer; a step that one of them covers is a pause however short it is.
     """
     breaks = long_steps(times_us)
     if breaks.any():

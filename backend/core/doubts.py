@@ -89,24 +89,18 @@ class Evidence:
 
 def doubts_of(ride: Evidence) -> tuple[Doubt, ...]:
     """All that is doubtful of a ride; empty for one that agrees with itself."""
-    found = [wheel_and_track(ride)]
-    return (
-        *(one for one in found if one is not None),
-        *stated(ride),
-        *left_out(ride),
-        *impossible(ride),
-    )
+    return (*wheel_and_track(ride), *stated(ride), *left_out(ride), *impossible(ride))
 
 
-def wheel_and_track(ride: Evidence) -> Doubt | None:
+def wheel_and_track(ride: Evidence) -> Iterator[Doubt]:
     """Whether the distance by wheel is about that by positions, where both are known."""
     distances = ride.distances
     if distances is None or distances.source == "positions" or LATITUDE not in ride.columns:
-        return None
+        return
     latitude_deg, longitude_deg = ride.columns[LATITUDE], ride.columns[LONGITUDE]
     valid = np.flatnonzero(np.isfinite(latitude_deg) & np.isfinite(longitude_deg))
     if len(valid) < 2:
-        return None
+        return
     chord = np.unique((ride.start_s[valid] - ride.start_s[valid[0]]) // CHORD_S, return_index=True)
     rows = valid[chord[1]]
     track_m = track_steps_m(latitude_deg[rows], longitude_deg[rows])
@@ -116,8 +110,7 @@ def wheel_and_track(ride: Evidence) -> Doubt | None:
     alike = (gaps == 0) & is_reachable(track_m, seconds) & (seconds <= 6 * CHORD_S)
     wheel_km, track_km = (float(steps[alike].sum()) / 1000.0 for steps in (wheel_m, track_m))
     if differ(wheel_km, track_km, TRACK_SHARE, TRACK_KM):
-        return Doubt("wheel_and_track", wheel_km, track_km, "km")
-    return None
+        yield Doubt("wheel_and_track", wheel_km, track_km, "km")
 
 
 def differ(one: float, other: float, share: float, least: float) -> bool:
@@ -201,16 +194,15 @@ def impossible(ride: Evidence) -> Iterator[Doubt]:
     yield from motor_work(summary)
 
 
-def motor_work(summary: RideSummary) -> Sequence[Doubt]:
+def motor_work(summary: RideSummary) -> Iterator[Doubt]:
     """A motor gives no more than its battery, where both were measured throughout."""
     motor_wh, battery_wh = summary.motor_wh, summary.battery_wh
     unknown_s = (summary.motor_excluded_s or 0.0) + (summary.battery_excluded_s or 0.0)
     measured = unknown_s <= (1.0 - MEASURED_SHARE) * summary.duration_s
     if motor_wh is None or battery_wh is None or not measured:
-        return ()
-    if motor_wh <= WORK_SHARE * battery_wh + WORK_WH:
-        return ()
-    return (Doubt("motor_work", motor_wh, battery_wh, "Wh"),)
+        return
+    if motor_wh > WORK_SHARE * battery_wh + WORK_WH:
+        yield Doubt("motor_work", motor_wh, battery_wh, "Wh")
 
 
 def open_doubts(doubts: Sequence[Doubt], accepted: Sequence[str]) -> int:

@@ -267,7 +267,7 @@ class Uploads:
             if (twin := self._twin(upload)) is not None:
                 return twin
             concluded = self._store_rides(self.get(upload.id), outcome)
-        for ride_id in concluded.ride_ids:
+        for ride_id in concluded.ride_ids if concluded.duplicate_of is None else ():
             with suppress(SpindleError):
                 self._judge(self._store.rides.get(ride_id))
         return self.get(upload.id)

@@ -14,12 +14,12 @@ from typing import Protocol
 
 import numpy as np
 
-from backend.core.breaks import DISTANCE, LATITUDE, LONGITUDE, Mask, find_breaks
+from backend.core.breaks import Mask
 from backend.core.channels import ChannelSpec, Counts, Values
 from backend.core.energy import FACTORS, derive, sample_seconds
 from backend.core.filled import filled_seconds
 from backend.core.pyramid import STEPS, Level
-from backend.core.ride import DONE, Ride, RideRows, TimesUs, breaks_at
+from backend.core.ride import Ride, RideRows, TimesUs, breaks_at
 from backend.errors import StoreError
 from backend.store.soundness import CHANGED, damaged_samples
 from backend.store.sql.blobs import Rows16
@@ -132,13 +132,10 @@ class RideReader:
 
     def breaks(self) -> Mask:
         """Which steps from row to row (n - 1,) are breaks in which nobody knows what was."""
-        ride, count = self.ride, self.row_count
-        if ride.period_us is not None:
+        count = self.row_count
+        if self.ride.period_us is not None:
             return np.zeros(max(count - 1, 0), dtype=bool)
-        times_us = self.times_us(0, count)
-        if ride.state == DONE:
-            return breaks_at(ride.gaps, times_us)
-        return find_breaks(self.values((DISTANCE, LATITUDE, LONGITUDE)), times_us)
+        return breaks_at(self.ride.gaps, self.times_us(0, count))
 
     def chunks(self, names: Sequence[str], rows: int) -> Iterator[RideRows]:
         """The whole ride, `rows` rows at a time."""

@@ -102,8 +102,11 @@ def settle_twins(connection: Connection, ride_id: int) -> None:
     """Of the recordings of one ride let the best count: nothing doubtful or impossible in it, then
     the most channels and rows, then the first that came."""
     ride, card = t.ride.c, t.ride_card.c
-    mine = select(ride.same_ride_as).where(ride.id == ride_id)
-    one = or_(ride.id == ride_id, ride.same_ride_as == ride_id, ride.id == mine.scalar_subquery())
+    twin_id = connection.execute(select(ride.same_ride_as).where(ride.id == ride_id)).scalar()
+    one = ride.id == ride_id
+    # Most rides have no twin, and none of these looks through all the others.
+    if twin_id is not None:
+        one = or_(one, ride.id == twin_id, ride.same_ride_as.in_((ride_id, twin_id)))
     columns = (ride.id, ride.intake, ride.channels, ride.row_count, card.open_doubts)
     query = select(*columns).outerjoin(t.ride_card, card.ride_id == ride.id).where(one)
 
