@@ -6,11 +6,17 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
 from typing import Any, TypeVar, dataclass_transform
 
+from pydantic import GetCoreSchemaHandler, TypeAdapter
+from pydantic_core import core_schema
+
 Described = TypeVar("Described")
 Made = TypeVar("Made")
 
 # Every field is sent, missing is null: so each is required of an answer, also one with a default.
 CONFIG = {"use_attribute_docstrings": True, "json_schema_serialization_defaults_required": True}
+
+SCHEMAS: dict[type[Any], core_schema.CoreSchema] = {}
+BEING_MADE: set[type[Any]] = set()
 
 
 @dataclass_transform(frozen_default=True)
@@ -21,7 +27,23 @@ def described(cls: type[Described]) -> type[Described]:
     docstring of an inherited field is not seen: write such a field again.
     """
     cls.__pydantic_config__ = CONFIG  # type: ignore[attr-defined]
+    cls.__get_pydantic_core_schema__ = classmethod(schema_once)  # type: ignore[attr-defined]
     return dataclass(frozen=True)(cls)
+
+
+def schema_once(
+    cls: type[Any], source: Any, handler: GetCoreSchemaHandler
+) -> core_schema.CoreSchema:
+    """Pydantic's schema of a described type, made once however many routes answer with it."""
+    if cls not in SCHEMAS:
+        if cls in BEING_MADE:
+            return handler(source)
+        BEING_MADE.add(cls)
+        try:
+            SCHEMAS[cls] = TypeAdapter(cls).core_schema
+        finally:
+            BEING_MADE.discard(cls)
+    return SCHEMAS[cls]
 
 
 def from_members(kind: Callable[..., Made], body: Mapping[str, Any]) -> Made:
