@@ -67,6 +67,17 @@ def test_a_wheel_in_other_units_shows_beside_the_track(wheel: float) -> None:
     assert doubt.figure == pytest.approx(9.0 * wheel, rel=0.01)
 
 
+def test_positions_that_nobody_could_ride_are_no_reason_to_believe_the_wheel() -> None:
+    """All of them: 18 km/h by the wheel, 540 km/h by positions of another scale."""
+    columns = ridden(kmh=18.0)
+    columns["latitude_deg"] = 48.0 + 30.0 * (columns["latitude_deg"] - 48.0)
+
+    doubt = only(evidence(columns))
+
+    assert (doubt.code, doubt.figure) == ("wheel_and_track", pytest.approx(9.0, rel=0.01))
+    assert doubt.against == pytest.approx(270.0, rel=0.01)
+
+
 def test_a_receiver_at_rest_that_wanders_is_no_distance() -> None:
     """An hour at a café: the wheel stands, the receiver is 5 m off to all sides."""
     columns = ridden(noise_m=5.0)
