@@ -9,7 +9,7 @@ from typing import Any
 
 from backend import __version__
 from backend.cli import api, device, device_log, people, ride, ride_upload, serve, store
-from backend.cli.table_answer import column_meaning
+from backend.cli.table_answer import QUANTITIES, column_meaning
 
 KEY = "for a server that asks who this is; default: SPINDLE_KEY"
 AUTHOR = "whose changes these are; default: the server's setting, else its system's user"
@@ -129,7 +129,7 @@ def _add_ride(verbs: Any) -> None:
     command = _asking(group, "import", ride.import_files, help="FIT files and other logs")
     command.add_argument("files", nargs="+", type=Path)
     command.add_argument("--time-zone", metavar="ZONE", help="of times without one: Europe/Dublin")
-    for name in ("speed", "distance", "altitude", "temperature", "torque"):
+    for name in QUANTITIES:
         command.add_argument(f"--{name}-unit", metavar="UNIT", help=f"of a table's {name}")
     command.add_argument("--rows-per-second", type=float, help="of a log without times")
     words = "whether 03/04 is 3 April or 4 March"

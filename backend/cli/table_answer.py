@@ -10,6 +10,15 @@ from backend.errors import RequestRefused
 
 NONE = "none"
 """What `--column` calls a column that is to be none of ours."""
+# What is asked of a table beside its columns.
+OF_THE_TABLE = ("time_zone", "rows_per_second", "date_order")
+QUANTITIES = ("speed", "distance", "altitude", "temperature", "torque")
+"""What `--speed-unit` and its like say the unit of."""
+SAYING = (
+    *("column", "time_zone", "rows_per_second", "dates"),
+    *(f"{quantity}_unit" for quantity in QUANTITIES),
+)
+"""Options that say something of tables."""
 # What is said of one column can open a question about another.
 QUESTIONS_MAX = 3
 
@@ -23,9 +32,13 @@ def column_meaning(text: str) -> tuple[str, str]:
 
 
 def answer_for_table(server: Any, options: Namespace, upload: dict[str, Any]) -> dict[str, Any]:
-    """What became of a table once the options say what it does not; other files as they are."""
-    if upload.get("code") == "part_asks":
+    """What became of a table once the options say what it does not, or what its columns are; other
+    files as they are."""
+    says = any(getattr(options, name) for name in SAYING)
+    if upload.get("code") == "part_asks" or (upload.get("parts") and says):
         return answer_for_parts(server, options, upload)
+    if says and upload.get("has_columns") and upload["ride_ids"]:
+        return stated_anew(server, options, upload)
     for _ in range(QUESTIONS_MAX):
         if upload.get("code") != "needs_mapping":
             break
@@ -38,6 +51,34 @@ def answer_for_table(server: Any, options: Namespace, upload: dict[str, Any]) ->
         except RequestRefused as error:
             return {**upload, "code": error.code, "detail": error.message}
     return upload
+
+
+def stated_anew(server: Any, options: Namespace, upload: dict[str, Any]) -> dict[str, Any]:
+    """What became of a table that is a ride, by what the options say of its columns."""
+    path = f"/uploads/{upload['id']}/mapping"
+    try:
+        question = server.ask("GET", path)
+        answer, lacks = answer_of(options, question)
+        if not differs(question, answer):
+            return upload
+        if lacks:
+            return {**upload, "detail": f"Not said: {'; '.join(lacks)}. The ride is as it was."}
+        became: dict[str, Any] = server.ask("PUT", path, json=answer)
+    except RequestRefused as error:
+        return {**upload, "code": error.code, "detail": error.message}
+    return became
+
+
+def differs(question: dict[str, Any], answer: dict[str, Any]) -> bool:
+    """Whether an answer says anything else of a table than what was said before."""
+    before = question["answer"] or {}
+    asked = [column["name"] for column in question["columns"] if column["units"]]
+    units = before.get("units", {})
+    return (
+        answer["channels"] != before.get("channels", {})
+        or any(answer["units"].get(name) != units.get(name) for name in asked)
+        or any(question[name] and answer[name] != before.get(name) for name in OF_THE_TABLE)
+    )
 
 
 def answer_of(options: Namespace, question: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
-from typing import Any, TypeVar, dataclass_transform
+from typing import TYPE_CHECKING, Any, TypeVar, dataclass_transform
 
-from pydantic import GetCoreSchemaHandler, TypeAdapter
-from pydantic_core import core_schema
+if TYPE_CHECKING:
+    from pydantic import GetCoreSchemaHandler
+    from pydantic_core.core_schema import CoreSchema
 
 Described = TypeVar("Described")
 Made = TypeVar("Made")
@@ -15,7 +16,7 @@ Made = TypeVar("Made")
 # Every field is sent, missing is null: so each is required of an answer, also one with a default.
 CONFIG = {"use_attribute_docstrings": True, "json_schema_serialization_defaults_required": True}
 
-SCHEMAS: dict[type[Any], core_schema.CoreSchema] = {}
+SCHEMAS: dict[type[Any], CoreSchema] = {}
 BEING_MADE: set[type[Any]] = set()
 
 
@@ -31,10 +32,11 @@ def described(cls: type[Described]) -> type[Described]:
     return dataclass(frozen=True)(cls)
 
 
-def schema_once(
-    cls: type[Any], source: Any, handler: GetCoreSchemaHandler
-) -> core_schema.CoreSchema:
+def schema_once(cls: type[Any], source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
     """Pydantic's schema of a described type, made once however many routes answer with it."""
+    # A command that only sends a request starts without it.
+    from pydantic import TypeAdapter
+
     if cls not in SCHEMAS:
         if cls in BEING_MADE:
             return handler(source)

@@ -57,7 +57,8 @@ class Outcome:
 
     code, detail: None when it is complete. offset: byte where reading first went wrong.
     completeness: share of the file's rows that were read (0..1), None when nobody can say.
-    question: of `needs_mapping`, what must be said before the file is read.
+    question: what its owner can say of the file; of `needs_mapping` what must be said before it is
+    read.
     """
 
     state: str

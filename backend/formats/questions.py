@@ -52,7 +52,7 @@ class OfferedChannel:
 
 @dataclass(frozen=True)
 class TableQuestion:
-    """What must be said before a table is read.
+    """What can be said of a table, and what must be before it is read.
 
     header_sha256: of the names of its columns; tables that share it share the answer. kind: of
     table, as people call it. time_zone, rows_per_second, date_order: whether it lacks these.

@@ -38,39 +38,44 @@ class TableMapping:
         self._uploads = uploads
 
     def question(self, upload_id: str) -> dict[str, object]:
-        """What must be said of an upload's table: the question and what is known already.
+        """What can be said of an upload's table: the question and what is known already.
 
-        Raises NotFound; Conflict when nothing is asked of it.
+        Raises NotFound; Conflict when nothing can be said of it.
         """
-        question = self._uploads.question(upload_id)
+        upload = self._uploads.answerable(upload_id)
+        question = self._uploads.question(upload)
         stored = self._answers.get(question.header_sha256)
         if stored is not None:
             # What was said of one column can open a question about another.
             with suppress(Conflict):
-                question = self._uploads.question(upload_id, stored.answer)
+                question = self._uploads.question_after(upload, stored.answer)
         answer = answer_to_json(stored.answer) if stored else None
-        return {**asdict(question), "offered_channels": OFFERED, "answer": answer}
+        read = set(self._store.uploads.read_by(question.header_sha256)) - {upload.id}
+        known = {"offered_channels": OFFERED, "answer": answer, "files_read": len(read)}
+        return asdict(question) | known
 
-    def say(self, upload_id: str, values: Mapping[str, Any]) -> Upload:
-        """Keep an answer and read the file by it; what became of it.
+    def say(self, upload_id: str, values: Mapping[str, Any], *, read_again: bool = False) -> Upload:
+        """Keep an answer and read the file by it; what became of it. Rides that were made of it
+        become what it says now.
 
         All others that wait for the same are read behind it, and each tells for itself what became
         of it; then the containers they are within are judged anew. values: the members of
-        TableAnswer. A file whose answer opens another question waits for that.
+        TableAnswer. A file whose answer opens another question waits for that, if it is no ride
+        yet. read_again: whether other files with this header that were read are read by it, too.
         Raises NotFound, Conflict; InvalidRequest for an answer that lacks something, or says what
         cannot be.
         """
         answer = answer_from_json(values) or TableAnswer()
-        question = self._uploads.question(upload_id)
-        if missing := lacking(question, answer):
-            sentence = f"Not said, or not one of what can be said: {', '.join(missing)}."
-            fields = [FieldError(name, "not_said", sentence) for name in missing]
-            raise InvalidRequest(sentence, code="answer_incomplete", fields=fields)
-        if wrong := wrong_statements(question, answer):
-            sentence = " ".join(field.message for field in wrong)
-            raise InvalidRequest(sentence, code="answer_wrong", fields=wrong)
+        upload = self._uploads.answerable(upload_id)
+        question = self._uploads.question(upload)
+        check(question, answer)
+        if upload.ride_ids:
+            check(self._uploads.question_after(upload, answer), answer)
         self._answers.save(question, answer)
-        others = self._store.uploads.asking(NEEDS_MAPPING, question.header_sha256)
+        others = [*self._store.uploads.asking(NEEDS_MAPPING, question.header_sha256)]
+        if read_again:
+            others += self._store.uploads.read_by(question.header_sha256)
+        upload_id = upload.id
         containers = {one: self._uploads.get(one).part_of for one in (upload_id, *others)}
         read = {one: self._uploads.read_anew(one) for one in containers}
         own = containers[upload_id]
@@ -102,6 +107,17 @@ class TableMapping:
     def forget(self, header_sha256: str) -> None:
         """Ask again from now on; rides that were read stay as they are. Raises NotFound."""
         self._answers.forget(header_sha256)
+
+
+def check(question: TableQuestion, answer: TableAnswer) -> None:
+    """Raises InvalidRequest for an answer that lacks something, or says what cannot be."""
+    if missing := lacking(question, answer):
+        sentence = f"Not said, or not one of what can be said: {', '.join(missing)}."
+        fields = [FieldError(name, "not_said", sentence) for name in missing]
+        raise InvalidRequest(sentence, code="answer_incomplete", fields=fields)
+    if wrong := wrong_statements(question, answer):
+        sentence = " ".join(field.message for field in wrong)
+        raise InvalidRequest(sentence, code="answer_wrong", fields=wrong)
 
 
 def wrong_statements(question: TableQuestion, answer: TableAnswer) -> list[FieldError]:

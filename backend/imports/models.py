@@ -10,7 +10,7 @@ from pydantic import Field
 from backend.core.api_models import Answer, RequestBody
 from backend.formats.questions import OfferedChannel, TableAnswer, TableColumn
 from backend.imports.records import AnsweredTable
-from backend.store.uploads import UploadParts
+from backend.store.upload_rows import UploadParts
 
 
 class Upload(Answer):
@@ -34,6 +34,9 @@ class Upload(Answer):
     )
     part_of: str | None = Field(description="The upload of the container it came within.")
     parts: UploadParts | None = Field(description="Of a container; null for any other file.")
+    has_columns: bool = Field(
+        description="Whether its owner can say what it leaves open: `get_mapping`."
+    )
     doubtful_rides: int = Field(
         description="How many of its rides have figures that disagree or cannot be."
     )
@@ -60,10 +63,14 @@ class TableAnswerRequest(RequestBody):
         description="What a column is, by its name, whether that is asked or not: a name of "
         '`offered_channels`; `""` for none of them, its numbers stay under its own name.',
     )
+    read_again: bool = Field(
+        default=False,
+        description="Whether other files with this header that were read before are read by it.",
+    )
 
 
 class TableQuestion(Answer):
-    """What must be said before a table is read."""
+    """What can be said of a table, and what must be before it is read."""
 
     header_sha256: str
     kind: str
@@ -73,6 +80,7 @@ class TableQuestion(Answer):
     columns: list[TableColumn]
     offered_channels: list[OfferedChannel]
     answer: TableAnswer | None
+    files_read: int = Field(description="Other files with this header whose rides are here.")
 
 
 class AnsweredTables(Answer):

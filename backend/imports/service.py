@@ -49,6 +49,8 @@ PIECE_BYTES = 1 << 20
 QUICK_S = 5.0
 # Code of a file whose ride is still being recorded.
 WAITS = "ride_is_live"
+# Codes of a file whose rides are here: it waits to be read by another answer, or does not fit them.
+ANSWERED, LEFT_AS_READ = "answered_anew", "left_as_read"
 CONCLUDED = (COMPLETE, PARTIAL, REJECTED)
 
 
@@ -201,21 +203,46 @@ class Uploads:
         more = len(uploads) > limit
         return {"items": uploads[:limit], "next": uploads[limit - 1].id if more else None}
 
-    def question(self, upload_id: str, answer: TableAnswer | None = None) -> TableQuestion:
-        """What must be said of an upload's table before it is read; answer: beside what was said.
+    def answerable(self, upload_id: str) -> Upload:
+        """The upload whose answers count: of the same bytes, the one that became rides.
 
-        Raises NotFound; Conflict when it waits for no answer.
+        Raises NotFound.
         """
         upload = self.get(upload_id)
-        if upload.code == NEEDS_MAPPING:
+        return self._store.uploads.first_with(upload.sha256 or "") or upload
+
+    def question(self, upload: Upload) -> TableQuestion:
+        """What its owner can say of a table, or must before it is read.
+
+        Raises Conflict when it is no table, or has not arrived.
+        """
+        return self._question_by(upload, None)[0]
+
+    def question_after(self, upload: Upload, answer: TableAnswer) -> TableQuestion:
+        """The question that an answer leaves or opens. Raises Conflict.
+
+        Of a file whose rides are here also when they cannot become what it says by this answer.
+        """
+        question, outcome = self._question_by(upload, answer)
+        if upload.ride_ids and outcome.code != NEEDS_MAPPING:
+            problem = misfit(self._rides_of(upload), outcome)
+            if problem is not None:
+                raise Conflict(problem, code=LEFT_AS_READ)
+        return question
+
+    def _question_by(
+        self, upload: Upload, answer: TableAnswer | None
+    ) -> tuple[TableQuestion, Outcome]:
+        if upload.code == NEEDS_MAPPING or upload.state in (COMPLETE, PARTIAL):
             outcome = self._slow_reader(self._path(upload), upload.name, table_answer=answer)
             if outcome.question is not None:
-                return outcome.question
-        raise Conflict(f"Upload {upload_id} waits for no answer.", code="nothing_asked")
+                return outcome.question, outcome
+        raise Conflict(f"Nothing can be said of upload {upload.id}.", code="nothing_asked")
 
     def read_anew(self, upload_id: str) -> Future[Upload]:
-        """Have a file read again that waited for an answer; the promise of what becomes of it."""
-        self._store.uploads.wait_again(upload_id)
+        """Have a file read again; the promise of what becomes of it."""
+        code = ANSWERED if self.get(upload_id).ride_ids else None
+        self._store.uploads.wait_again(upload_id, code)
         return self._submit(upload_id)
 
     def remove(self, upload_id: str) -> None:
@@ -266,7 +293,8 @@ class Uploads:
             # The same bytes may have become a ride while these were read.
             if (twin := self._twin(upload)) is not None:
                 return twin
-            concluded = self._store_rides(self.get(upload.id), outcome)
+            store = self._store_again if upload.code == ANSWERED else self._store_rides
+            concluded = store(self.get(upload.id), outcome)
         for ride_id in concluded.ride_ids if concluded.duplicate_of is None else ():
             with suppress(SpindleError):
                 self._judge(self._store.rides.get(ride_id))
@@ -303,6 +331,32 @@ class Uploads:
             [ride.id for ride in result.existing],
             outcome.question.header_sha256 if outcome.question else None,
         )
+
+    def _store_again(self, upload: Upload, outcome: Outcome) -> Upload:
+        """Make the rides of a file what it says by another answer; their numbers and words stay."""
+        rides = self._rides_of(upload)
+        asks = outcome.question.header_sha256 if outcome.question else None
+        if problem := misfit(rides, outcome):
+            state = COMPLETE if upload.completeness == 1.0 else PARTIAL
+            return self._conclude(
+                upload.id, state, LEFT_AS_READ, problem, upload.completeness, asks_sha256=asks
+            )
+        for number, (ride, imported) in enumerate(zip(rides, outcome.rides, strict=True)):
+            by_answer = ride_of(upload, imported, number, len(rides), outcome.completeness)
+            self._store.rides.replace(ride, by_answer, imported.rows, upload.id)
+        return self._conclude(
+            upload.id,
+            outcome.state,
+            outcome.code,
+            outcome.detail,
+            outcome.completeness,
+            asks_sha256=asks,
+        )
+
+    def _rides_of(self, upload: Upload) -> Sequence[Ride]:
+        """The rides that are made of an upload's own rows."""
+        rides = [self._store.rides.get(ride_id) for ride_id in upload.ride_ids]
+        return [ride for ride in rides if ride.upload_id == upload.id]
 
     def _settle(
         self, upload: Upload, imported: ImportedRide, outcome: Outcome, result: ImportResult
@@ -387,6 +441,22 @@ class Uploads:
 def now_us() -> int:
     """Wall time in microseconds since 1970."""
     return time.time_ns() // 1000
+
+
+def misfit(rides: Sequence[Ride], outcome: Outcome) -> str | None:
+    """Why the rides of a file cannot become what it says by another answer; None where they can."""
+    if not outcome.rides:
+        return f"By this answer the file cannot be read: {outcome.detail}"
+    if not rides:
+        return "No ride is made of this file: what it holds was here before it came."
+    if filled := [ride for ride in rides if ride.filled]:
+        return f"Ride {filled[0].id} holds rows of another file, too: it stays as it is."
+    if len(outcome.rides) != len(rides):
+        return (
+            f"By this answer the file holds {len(outcome.rides)} rides, and {len(rides)} made of "
+            "it are here: delete them, and send the file again."
+        )
+    return None
 
 
 def ride_of(

@@ -20,14 +20,19 @@ TheTableMapping = Annotated[TableMapping, provided("tables")]
     "/uploads/{upload_id}/mapping", operation_id="get_mapping", response_model=TableQuestion
 )
 def get_mapping(upload_id: str, tables: TheTableMapping) -> Any:
-    """What must be said of a file that was rejected with `needs_mapping`, with its first rows."""
+    """What can be said of a table, with its first rows; of one that was rejected with
+    `needs_mapping`, what must be."""
     return tables.question(upload_id)
 
 
 @router.put("/uploads/{upload_id}/mapping", operation_id="put_mapping", response_model=Upload)
 async def put_mapping(upload_id: str, body: TableAnswerRequest, tables: TheTableMapping) -> Any:
-    """Says it; the file is read, as is every other that waits for the same answer."""
-    return await run_in_threadpool(tables.say, upload_id, body.model_dump())
+    """Says it; the file is read, as is every other that waits for the same answer.
+
+    Rides that are here already become what their file says now; names, notes and tags stay.
+    """
+    values = body.model_dump(exclude={"read_again"})
+    return await run_in_threadpool(tables.say, upload_id, values, read_again=body.read_again)
 
 
 @router.get("/tables", operation_id="list_tables", response_model=AnsweredTables)

@@ -13,7 +13,8 @@ from backend.store.rides import RideStore
 from backend.store.soundness import ROW_DAMAGED, expected_of
 from backend.store.store import Store, open_store
 from backend.store.upkeep.backup import StorePlace, backup_of, place_of
-from backend.store.uploads import Upload, UploadStore, Verdict
+from backend.store.upload_rows import Upload
+from backend.store.uploads import UploadStore, Verdict
 
 __all__ = [
     "ROW_DAMAGED",

@@ -101,7 +101,8 @@ def facts_before(
     original, file = upload_file(connection, ride.upload_id), upload_file(connection, upload_id)
     sources = {name: list(facts.get(name, ())) for name in ("filled_from", "earlier")}
     if part == MADE:
-        sources["earlier"] += [original] if original else []
+        if upload_id != ride.upload_id:
+            sources["earlier"] += [original] if original else []
         original = file
     else:
         sources["filled_from"] += [file] if file else []

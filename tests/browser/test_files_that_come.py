@@ -120,10 +120,22 @@ def test_whose_a_power_is_what_a_column_is_and_how_a_date_is_read_are_asked(
     expect(row).to_have_attribute("data-state", "complete")
     (ride,) = [one for one in fresh.get("/rides")["items"] if one["name"] == "logger"]
     assert ride["started_at"][:19] == "2025-09-05T15:00:00"
+
+    page.goto(f"{fresh.url}/rides/{ride['id']}")
+    from_file = page.get_by_test_id("from-file")
+    expect(from_file).to_contain_text("power is Battery power")
+    from_file.get_by_role("button", name="Say what its columns are").click()
+    dialog.get_by_label("What “power” is").select_option("motor_power_w")
+    dialog.get_by_role("button", name="Read the file again").click()
+
+    expect(dialog).to_have_count(0)
+    expect(from_file).to_contain_text("power is Motor power")
+    names = {channel["name"] for channel in fresh.get(f"/rides/{ride['id']}")["channels"]}
+    assert names & {"motor_power_w", "battery_power_w"} == {"motor_power_w"}
     page.goto(f"{fresh.url}/settings")
     known = page.get_by_test_id("answered-tables")
     expect(known).to_contain_text("cadence: kept under its own name · pack: Battery voltage")
-    expect(known).to_contain_text("power: Battery power · month before day · Europe/Berlin")
+    expect(known).to_contain_text("power: Motor power · month before day · Europe/Berlin")
     known.get_by_role("button", name="Forget").click()
     fresh.ask("DELETE", f"/rides/{ride['id']}")
 

@@ -248,6 +248,13 @@ def test_a_table_is_read_as_the_options_say(server: SpindleServer, tmp_path: Pat
     assert {"speed_kmh", "battery_power_w", "distance_m"} <= names
     assert "rider_power_w" not in names
 
+    put_right = spindle(server, "ride", "import", file, "--dates", "day_first", "--json")
+    same = spindle(server, "ride", "import", file, *known[:4])
+
+    assert json.loads(put_right.stdout)["ride_ids"] == [ride["id"]], put_right.stderr
+    assert same.returncode == 0, same.stderr
+    assert server.get(f"/rides/{ride['id']}")["started_at"][:19] == "2025-05-09T15:12:00"
+
 
 def test_any_request_of_the_api_is_sent_from_the_shell(
     server: SpindleServer, device: str, tmp_path: Path

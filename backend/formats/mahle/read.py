@@ -44,7 +44,8 @@ def read_mahle(data: bytes, answer: TableAnswer | None = None) -> Outcome:
     if clock is None:
         detail = f"A {KIND} that does not say: time_zone. Say it once, and every such file is read."
         return replace(rejected(NEEDS_MAPPING, detail), question=QUESTION)
-    return outcome_of(document.rides(*clock), walked, document, len(data))
+    outcome = outcome_of(document.rides(*clock), walked, document, len(data))
+    return replace(outcome, question=QUESTION if "time_zone" in clock[1] else None)
 
 
 def outcome_of(

@@ -194,9 +194,13 @@ def measure_of(header: str) -> Measure | None:
 
 
 def measure_in(channel: str, unit: str | None) -> Measure:
-    """A channel in the unit a header tells; where it tells none, as the channel is defined."""
+    """A channel in the unit a header tells; where it tells none of its quantity, as the channel is
+    defined."""
     rule = RULES[channel]
     unit_rule = UNITS.get(plain_unit(unit)) if unit else None
+    defined = UNITS.get(plain_unit(rule.channel.unit))
+    if unit_rule is not None and defined is not None and unit_rule[0] != defined[0]:
+        unit_rule = None
     if unit_rule is not None and unit_rule[1] in UNIT_CHOICES.get(channel, (unit_rule[1],)):
         return Measure(rule, unit_rule[1])
     if channel in UNIT_CHOICES:

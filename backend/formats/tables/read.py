@@ -140,7 +140,7 @@ class Table:
             detail = f"{kind} that does not say: {', '.join(missing)}. Say it once, and every file "
             detail += "with this header is read."
             return replace(rejected(NEEDS_MAPPING, detail), question=question)
-        return self._outcome(times, layout, columns, question)
+        return replace(self._outcome(times, layout, columns, question), question=question)
 
     def _read_numbers(self, separator: str) -> dict[int, Numbers]:
         """Every column that is no time, by place."""
@@ -159,8 +159,9 @@ class Table:
         """What a column is: as its owner stated, by the layout's format, else by its header."""
         stated = self._answer.channels.get(name)
         if stated is not None:
-            _, unit = split_unit(name)
-            return measure_in(stated, unit or numbers.unit) if stated in RULES else None
+            _, of_layout = layout_unit(self._layout, name) or ("", None)
+            unit = split_unit(name)[1] or numbers.unit or of_layout
+            return measure_in(stated, unit) if stated in RULES else None
         header = name
         if numbers.unit is not None and split_unit(name)[1] is None:
             header = f"{name} ({numbers.unit})"
@@ -341,9 +342,7 @@ def is_product(power: Values, volts: Values, amps: Values) -> bool:
 
 def measured(layout: Layout, column_name: str, header: str) -> Measure | None:
     """What a column is: by the layout's format, else by its own header."""
-    given_unit = layout.units.get(words(column_name)) or layout.units.get(
-        words(split_unit(column_name)[0])
-    )
+    given_unit = layout_unit(layout, column_name)
     if given_unit is None:
         return measure_of(header)
     channel, unit = given_unit
@@ -353,6 +352,12 @@ def measured(layout: Layout, column_name: str, header: str) -> Measure | None:
         return Measure(rule, unit)
     measure = measure_in(channel, unit)
     return replace(measure, choices=choices) if choices else measure
+
+
+def layout_unit(layout: Layout, column_name: str) -> tuple[str, str | None] | None:
+    """Channel and unit of a column that a layout's format defines."""
+    name, _ = split_unit(column_name)
+    return layout.units.get(words(column_name)) or layout.units.get(words(name))
 
 
 def own_name(column_name: str, taken: Mapping[str, object]) -> str:

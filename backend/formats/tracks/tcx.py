@@ -68,18 +68,19 @@ def read_tcx(data: bytes, answer: TableAnswer | None = None) -> Outcome:
     activities = [one for one in reader.activities if one.track.points.rows]
     if not activities and reader.courses:
         return rejected("no_records", "The file holds a course: a plan, not the record of a ride.")
-    if clock.lacks_zone and zone is None:
-        question = question_of(activities)
+    question = question_of(activities) if clock.lacks_zone else None
+    if question is not None and zone is None:
         detail = f"A {question.kind} that does not say: time_zone. Say it once, and every such "
         return replace(rejected(NEEDS_MAPPING, f"{detail}file is read."), question=question)
     for activity in activities:
-        activity.track.zone = zone if clock.lacks_zone else None
+        activity.track.zone = zone if question is not None else None
         place_laps(activity)
         activity.track.metadata = DeviceMetadata(
             laps=laps_of(activity), instruments=device_of(activity)
         )
     tracks = [activity.track for activity in activities]
-    return outcome_of(tracks, walked, len(data), "points without a time are no ride")
+    outcome = outcome_of(tracks, walked, len(data), "points without a time are no ride")
+    return replace(outcome, question=question)
 
 
 class TcxReader:

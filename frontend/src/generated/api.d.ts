@@ -2190,12 +2190,15 @@ export interface paths {
         };
         /**
          * Get Mapping
-         * @description What must be said of a file that was rejected with `needs_mapping`, with its first rows.
+         * @description What can be said of a table, with its first rows; of one that was rejected with
+         *     `needs_mapping`, what must be.
          */
         get: operations["get_mapping"];
         /**
          * Put Mapping
          * @description Says it; the file is read, as is every other that waits for the same answer.
+         *
+         *     Rides that are here already become what their file says now; names, notes and tags stay.
          */
         put: operations["put_mapping"];
         post?: never;
@@ -8293,6 +8296,12 @@ export interface components {
             channels?: {
                 [key: string]: string;
             };
+            /**
+             * Read Again
+             * @description Whether other files with this header that were read before are read by it.
+             * @default false
+             */
+            read_again: boolean;
         };
         /**
          * TableColumn
@@ -8381,7 +8390,7 @@ export interface components {
         };
         /**
          * TableQuestion
-         * @description What must be said before a table is read.
+         * @description What can be said of a table, and what must be before it is read.
          */
         TableQuestion: {
             /** Header Sha256 */
@@ -8408,6 +8417,11 @@ export interface components {
             /** Offered Channels */
             offered_channels: components["schemas"]["OfferedChannel"][];
             answer: components["schemas"]["TableAnswer"] | null;
+            /**
+             * Files Read
+             * @description Other files with this header whose rides are here.
+             */
+            files_read: number;
         };
         /** TableReview */
         TableReview: {
@@ -8853,6 +8867,11 @@ export interface components {
             part_of: string | null;
             /** @description Of a container; null for any other file. */
             parts: components["schemas"]["UploadParts"] | null;
+            /**
+             * Has Columns
+             * @description Whether its owner can say what it leaves open: `get_mapping`.
+             */
+            has_columns: boolean;
             /**
              * Doubtful Rides
              * @description How many of its rides have figures that disagree or cannot be.

@@ -32,6 +32,7 @@ const question: TableQuestion = {
     ...POWERS.map((name) => ({ name, unit: 'W', units: [] })),
   ],
   answer: null,
+  files_read: 0,
 }
 const before = { time_zone: 'UTC', rows_per_second: 5, date_order: null, units: {}, channels: {} }
 const begun = answered(question, 'Europe/Dublin')
@@ -49,6 +50,7 @@ describe('answers about a table', () => {
       order: null,
       channels: { speed: null, cadence: null },
       units: { speed: '', cadence: '' },
+      read_again: false,
     })
   })
 
@@ -97,6 +99,7 @@ describe('answers about a table', () => {
       date_order: null,
       units: { wind: 'm/s', speed: 'm/s' },
       channels: { wind: 'speed_kmh', cadence: '' },
+      read_again: false,
     })
   })
 })

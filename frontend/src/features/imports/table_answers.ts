@@ -14,6 +14,17 @@ export interface AnswerDraft {
   channels: Record<string, string | null>
   /** By the column's name; '' until it is chosen. */
   units: Record<string, string>
+  /** Whether other files with this header are read again by it. */
+  read_again: boolean
+}
+
+export const EMPTY_DRAFT: AnswerDraft = {
+  zone: '',
+  rate: null,
+  order: null,
+  channels: {},
+  units: {},
+  read_again: false,
 }
 
 /** The earlier answers, and the rider's own zone; nothing else is chosen for the rider. */
@@ -30,6 +41,7 @@ export function answered(question: TableQuestion, here: string): AnswerDraft {
       const unit = before?.units[name] ?? ''
       return units.includes(unit) ? unit : ''
     }),
+    read_again: false,
   }
 }
 
@@ -80,6 +92,7 @@ export function asRequest(question: TableQuestion, draft: AnswerDraft): TableAns
     date_order: draft.order,
     units: { ...before?.units, ...(Object.fromEntries(units) as Record<string, string>) },
     channels: { ...before?.channels, ...(Object.fromEntries(channels) as Record<string, string>) },
+    read_again: draft.read_again,
   }
 }
 
