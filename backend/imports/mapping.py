@@ -9,7 +9,7 @@ from dataclasses import asdict
 from functools import partial
 from typing import Any
 
-from backend.errors import Conflict, FieldError, InvalidRequest
+from backend.errors import Conflict, FieldError, InvalidRequest, NotAllowed
 from backend.formats import NEEDS_MAPPING
 from backend.formats.questions import (
     LEFT_OUT,
@@ -54,7 +54,14 @@ class TableMapping:
         known = {"offered_channels": OFFERED, "answer": answer, "files_read": len(read)}
         return asdict(question) | known
 
-    def say(self, upload_id: str, values: Mapping[str, Any], *, read_again: bool = False) -> Upload:
+    def say(
+        self,
+        upload_id: str,
+        values: Mapping[str, Any],
+        *,
+        read_again: bool = False,
+        may_change_rides: bool = True,
+    ) -> Upload:
         """Keep an answer and read the file by it; what became of it. Rides that were made of it
         become what it says now.
 
@@ -63,10 +70,12 @@ class TableMapping:
         TableAnswer. A file whose answer opens another question waits for that, if it is no ride
         yet. read_again: whether other files with this header that were read are read by it, too.
         Raises NotFound, Conflict; InvalidRequest for an answer that lacks something, or says what
-        cannot be.
+        cannot be; NotAllowed where it would change rides and may not.
         """
         answer = answer_from_json(values) or TableAnswer()
         upload = self._uploads.answerable(upload_id)
+        if (upload.ride_ids or read_again) and not may_change_rides:
+            raise NotAllowed("Rides are made of this file already: this changes them.")
         question = self._uploads.question(upload)
         check(question, answer)
         if upload.ride_ids:
