@@ -37,36 +37,24 @@ def answer_for_table(server: Any, options: Namespace, upload: dict[str, Any]) ->
     says = any(getattr(options, name) for name in SAYING)
     if upload.get("code") == "part_asks" or (upload.get("parts") and says):
         return answer_for_parts(server, options, upload)
-    if says and upload.get("has_columns") and upload["ride_ids"]:
-        return stated_anew(server, options, upload)
+    is_ride = bool(says and upload.get("has_columns") and upload["ride_ids"])
     for _ in range(QUESTIONS_MAX):
-        if upload.get("code") != "needs_mapping":
+        if not is_ride and upload.get("code") != "needs_mapping":
             break
         path = f"/uploads/{upload['id']}/mapping"
-        answer, lacks = answer_of(options, server.ask("GET", path))
-        if lacks:
-            return {**upload, "detail": f"{upload['detail']} Lacking: {'; '.join(lacks)}."}
         try:
+            question = server.ask("GET", path)
+            answer, lacks = answer_of(options, question)
+            if is_ride and not differs(question, answer):
+                break
+            if lacks:
+                detail = f"{upload['detail'] or ''} Lacking: {'; '.join(lacks)}.".lstrip()
+                return {**upload, "detail": detail}
             upload = server.ask("PUT", path, json=answer)
         except RequestRefused as error:
             return {**upload, "code": error.code, "detail": error.message}
+        is_ride = False
     return upload
-
-
-def stated_anew(server: Any, options: Namespace, upload: dict[str, Any]) -> dict[str, Any]:
-    """What became of a table that is a ride, by what the options say of its columns."""
-    path = f"/uploads/{upload['id']}/mapping"
-    try:
-        question = server.ask("GET", path)
-        answer, lacks = answer_of(options, question)
-        if not differs(question, answer):
-            return upload
-        if lacks:
-            return {**upload, "detail": f"Not said: {'; '.join(lacks)}. The ride is as it was."}
-        became: dict[str, Any] = server.ask("PUT", path, json=answer)
-    except RequestRefused as error:
-        return {**upload, "code": error.code, "detail": error.message}
-    return became
 
 
 def differs(question: dict[str, Any], answer: dict[str, Any]) -> bool:

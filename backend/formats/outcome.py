@@ -69,6 +69,11 @@ class Outcome:
     completeness: float | None = None
     question: TableQuestion | None = None
 
+    @property
+    def header_sha256(self) -> str | None:
+        """By what its question's answer is found."""
+        return None if self.question is None else self.question.header_sha256
+
 
 def rejected(code: str, detail: str, offset: int | None = None) -> Outcome:
     """An outcome without rides."""

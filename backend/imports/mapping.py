@@ -48,7 +48,7 @@ class TableMapping:
         if stored is not None:
             # What was said of one column can open a question about another.
             with suppress(Conflict):
-                question = self._uploads.question_after(upload, stored.answer)
+                question = self._uploads.question(upload, stored.answer)
         answer = answer_to_json(stored.answer) if stored else None
         read = set(self._store.uploads.read_by(question.header_sha256)) - {upload.id}
         known = {"offered_channels": OFFERED, "answer": answer, "files_read": len(read)}
@@ -76,10 +76,9 @@ class TableMapping:
         upload = self._uploads.answerable(upload_id)
         if (upload.ride_ids or read_again) and not may_change_rides:
             raise NotAllowed("Rides are made of this file already: this changes them.")
-        question = self._uploads.question(upload)
+        # A file that is no ride yet can wait for what its answer opens.
+        question = self._uploads.question(upload, answer if upload.ride_ids else None)
         check(question, answer)
-        if upload.ride_ids:
-            check(self._uploads.question_after(upload, answer), answer)
         self._answers.save(question, answer)
         others = [*self._store.uploads.asking(NEEDS_MAPPING, question.header_sha256)]
         if read_again:

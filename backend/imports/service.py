@@ -211,33 +211,24 @@ class Uploads:
         upload = self.get(upload_id)
         return self._store.uploads.first_with(upload.sha256 or "") or upload
 
-    def question(self, upload: Upload) -> TableQuestion:
-        """What its owner can say of a table, or must before it is read.
+    def question(self, upload: Upload, answer: TableAnswer | None = None) -> TableQuestion:
+        """What its owner can say of a table, or must before it is read; with an answer, what that
+        leaves or opens.
 
-        Raises Conflict when it is no table, or has not arrived.
+        Raises Conflict: `nothing_asked` when it is no table or has not arrived; `left_as_read` when
+        the rides that are here cannot become what the file says by the answer.
         """
-        return self._question_by(upload, None)[0]
-
-    def question_after(self, upload: Upload, answer: TableAnswer) -> TableQuestion:
-        """The question that an answer leaves or opens. Raises Conflict.
-
-        Of a file whose rides are here also when they cannot become what it says by this answer.
-        """
-        question, outcome = self._question_by(upload, answer)
-        if upload.ride_ids and outcome.code != NEEDS_MAPPING:
+        question: TableQuestion | None = None
+        if upload.code == NEEDS_MAPPING or upload.state in (COMPLETE, PARTIAL):
+            outcome = self._slow_reader(self._path(upload), upload.name, table_answer=answer)
+            question = outcome.question
+        if question is None:
+            raise Conflict(f"Nothing can be said of upload {upload.id}.", code="nothing_asked")
+        if answer is not None and upload.ride_ids and outcome.code != NEEDS_MAPPING:
             problem = misfit(self._rides_of(upload), outcome)
             if problem is not None:
                 raise Conflict(problem, code=LEFT_AS_READ)
         return question
-
-    def _question_by(
-        self, upload: Upload, answer: TableAnswer | None
-    ) -> tuple[TableQuestion, Outcome]:
-        if upload.code == NEEDS_MAPPING or upload.state in (COMPLETE, PARTIAL):
-            outcome = self._slow_reader(self._path(upload), upload.name, table_answer=answer)
-            if outcome.question is not None:
-                return outcome.question, outcome
-        raise Conflict(f"Nothing can be said of upload {upload.id}.", code="nothing_asked")
 
     def read_anew(self, upload_id: str) -> Future[Upload]:
         """Have a file read again; the promise of what becomes of it."""
@@ -329,17 +320,21 @@ class Uploads:
             outcome.completeness,
             result.existing[0].id if only_existing else None,
             [ride.id for ride in result.existing],
-            outcome.question.header_sha256 if outcome.question else None,
+            outcome.header_sha256,
         )
 
     def _store_again(self, upload: Upload, outcome: Outcome) -> Upload:
         """Make the rides of a file what it says by another answer; their numbers and words stay."""
         rides = self._rides_of(upload)
-        asks = outcome.question.header_sha256 if outcome.question else None
         if problem := misfit(rides, outcome):
             state = COMPLETE if upload.completeness == 1.0 else PARTIAL
             return self._conclude(
-                upload.id, state, LEFT_AS_READ, problem, upload.completeness, asks_sha256=asks
+                upload.id,
+                state,
+                LEFT_AS_READ,
+                problem,
+                upload.completeness,
+                asks_sha256=outcome.header_sha256,
             )
         for number, (ride, imported) in enumerate(zip(rides, outcome.rides, strict=True)):
             by_answer = ride_of(upload, imported, number, len(rides), outcome.completeness)
@@ -350,7 +345,7 @@ class Uploads:
             outcome.code,
             outcome.detail,
             outcome.completeness,
-            asks_sha256=asks,
+            asks_sha256=outcome.header_sha256,
         )
 
     def _rides_of(self, upload: Upload) -> Sequence[Ride]:
@@ -415,11 +410,8 @@ class Uploads:
         outcome = read(path, upload.name)
         if outcome.question is not None:
             stored_answer = self._answers.get(outcome.question.header_sha256)
-            outcome = (
-                read(path, upload.name, table_answer=stored_answer.answer)
-                if stored_answer
-                else outcome
-            )
+            if stored_answer is not None:
+                outcome = read(path, upload.name, table_answer=stored_answer.answer)
         if outcome.code == TOO_SLOW and lane != SLOW:
             raise GoesElsewhere(SLOW)
         return outcome

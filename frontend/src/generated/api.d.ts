@@ -2198,7 +2198,8 @@ export interface paths {
          * Put Mapping
          * @description Says it; the file is read, as is every other that waits for the same answer.
          *
-         *     Rides that are here already become what their file says now; names, notes and tags stay.
+         *     Rides that are here already become what their file says now; names, notes and tags stay. That
+         *     needs the permission `change_rides`, too.
          */
         put: operations["put_mapping"];
         post?: never;

@@ -7,19 +7,16 @@ files `c18d_us_ampm.csv` and `c03_wheellog.csv` that people reported.
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import pytest
 
 from backend.core.ride import Ride, iso_utc
-from backend.formats.formats import read_file
-from backend.formats.outcome import Outcome
-from backend.formats.questions import TableAnswer
 from backend.imports.mapping import TableMapping
 from backend.imports.service import Uploads
 from backend.store import Store
 from tests.fakes.api import api_with, client_of
+from tests.unit.imports.conftest import reader
 
 # A store for every test: left out of `make test-fast`.
 pytestmark = pytest.mark.slow
@@ -34,10 +31,6 @@ POWERS = ["rider_power_w", "motor_power_w", "battery_power_w", ""]
 
 def table(header: str, row: str) -> bytes:
     return "\n".join([header, *(row.format(n=n) for n in range(ROWS)), ""]).encode()
-
-
-def reader(path: Path, name: str, *, table_answer: TableAnswer | None = None) -> Outcome:
-    return read_file(name, path.read_bytes(), table_answer)
 
 
 class Desk:

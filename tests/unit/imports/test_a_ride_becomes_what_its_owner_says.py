@@ -11,14 +11,12 @@ from pathlib import Path
 import pytest
 
 from backend.errors import Conflict, InvalidRequest, NotAllowed
-from backend.formats.formats import read_file
-from backend.formats.outcome import Outcome
-from backend.formats.questions import TableAnswer
 from backend.imports.mapping import TableMapping
 from backend.imports.service import Uploads
 from backend.rebuild import rebuild_store
 from backend.store import Store, Upload, open_store
 from tests.fakes.fit_file import commute, fit_file
+from tests.unit.imports.conftest import reader
 
 # A store for every test: left out of `make test-fast`.
 pytestmark = pytest.mark.slow
@@ -32,20 +30,6 @@ def table(day: int = 1, zone: str = "Z") -> bytes:
     """Says all that must be known of it; nobody would take its last column for a heart rate."""
     rows = (f"2025-05-{day:02}T10:00:{n:02}{zone},{20 + day},{100 + n}" for n in range(ROWS))
     return "\n".join(["time,speed (km/h),pulses", *rows, ""]).encode()
-
-
-def reader(path: Path, name: str, *, table_answer: TableAnswer | None = None) -> Outcome:
-    return read_file(name, path.read_bytes(), table_answer)
-
-
-@pytest.fixture
-def uploads(store: Store) -> Uploads:
-    return Uploads(store, reader=reader)
-
-
-@pytest.fixture
-def mapping(store: Store, uploads: Uploads) -> TableMapping:
-    return TableMapping(store, uploads)
 
 
 def channels(store: Store, upload: Upload) -> set[str]:

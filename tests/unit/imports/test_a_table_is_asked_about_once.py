@@ -13,7 +13,6 @@ from pathlib import Path
 import pytest
 
 from backend.errors import Conflict, InvalidRequest, NotFound
-from backend.formats.formats import read_file
 from backend.formats.outcome import Outcome
 from backend.formats.questions import TableAnswer
 from backend.imports.mapping import TableMapping
@@ -22,6 +21,7 @@ from backend.rebuild import rebuild_store
 from backend.store import Store, Upload, open_store
 from backend.store.upkeep.backup import backup_of
 from tests.fakes.fit_file import commute, fit_file
+from tests.unit.imports.conftest import reader
 
 SAID = {"time_zone": "Europe/Dublin", "units": {"speed": "m/s"}, "rows_per_second": None}
 
@@ -29,20 +29,6 @@ SAID = {"time_zone": "Europe/Dublin", "units": {"speed": "m/s"}, "rows_per_secon
 def table(day: int) -> bytes:
     rows = "".join(f"2023-07-{day:02}T09:04:{s:02},5.0,{70 + s}\n" for s in range(30))
     return f"timestamp,speed,cadence\n{rows}".encode()
-
-
-def reader(path: Path, name: str, *, table_answer: TableAnswer | None = None) -> Outcome:
-    return read_file(name, path.read_bytes(), table_answer)
-
-
-@pytest.fixture
-def uploads(store: Store) -> Uploads:
-    return Uploads(store, reader=reader)
-
-
-@pytest.fixture
-def mapping(store: Store, uploads: Uploads) -> TableMapping:
-    return TableMapping(store, uploads)
 
 
 def test_an_answer_reads_every_file_that_waited_for_it_and_those_that_come(

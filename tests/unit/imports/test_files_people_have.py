@@ -14,13 +14,11 @@ import numpy as np
 import pytest
 
 from backend.core.ride import Ride, iso_utc
-from backend.formats.formats import read_file
-from backend.formats.outcome import Outcome
-from backend.formats.questions import TableAnswer
 from backend.imports.mapping import TableMapping
 from backend.imports.service import Uploads
 from backend.rides.insight.service import RideEnergy
 from backend.store import Store
+from tests.unit.imports.conftest import reader
 
 REPORTED = Path(__file__).parent / "reported"
 HERE = {"time_zone": "Europe/Berlin"}
@@ -103,10 +101,6 @@ RIGHT = (
     Right("c39a_thousands_point.csv", 5.41, 41.14),
     Right("c39b_thousands_comma_quoted.csv", 5.41, 41.14),
 )
-
-
-def reader(path: Path, name: str, *, table_answer: TableAnswer | None = None) -> Outcome:
-    return read_file(name, path.read_bytes(), table_answer)
 
 
 def no_config(_ride: Ride, _t_s: float = 0.0) -> tuple[dict[str, object], str]:
