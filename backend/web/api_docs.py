@@ -9,6 +9,7 @@ from html import escape
 from typing import Any
 
 from fastapi import FastAPI
+from fastapi.concurrency import run_in_threadpool
 from fastapi.responses import HTMLResponse, JSONResponse
 
 STYLE = """
@@ -21,15 +22,18 @@ table { border-collapse: collapse; } td { padding: .1rem 1rem .1rem 0; vertical-
 
 
 def install(app: FastAPI, source: str) -> None:
-    """Adds the page, and the description itself at `source`."""
+    """Adds the page, and the description itself at `source`.
+
+    Describing takes seconds where it is asked first: never on the event loop.
+    """
 
     @app.get("/api/docs", operation_id="get_docs", include_in_schema=False)
     async def docs() -> HTMLResponse:
-        return HTMLResponse(page(app.openapi(), source))
+        return HTMLResponse(await run_in_threadpool(lambda: page(app.openapi(), source)))
 
     @app.get(source, operation_id="get_description", include_in_schema=False)
     async def description() -> JSONResponse:
-        return JSONResponse(app.openapi())
+        return JSONResponse(await run_in_threadpool(app.openapi))
 
 
 def page(description: dict[str, Any], source: str) -> str:

@@ -1,8 +1,8 @@
 """Connections that do not talk are let go, and there are never too many.
 
-uvicorn waits for the first request of a connection, and for the rest of a body, as long as the
-other end likes. A thousand sockets that say nothing would use up the process's file descriptors,
-and with them the units' ports and the database.
+uvicorn waits for the first request of a connection, for the rest of a body, and for the other end
+to read an answer as long as that likes. A thousand sockets that say nothing would use up the
+process's file descriptors, and with them the units' ports and the database.
 """
 
 from __future__ import annotations
@@ -17,6 +17,8 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 HEAD_S = 15.0
 # Between pieces of a body; a phone in a cellar may be slow, not silent for a minute.
 BODY_S = 60.0
+# An answer of which nothing more is taken; it may hold a file open.
+READ_S = 60.0
 CHECK_EVERY_S = 5.0
 # Half of the file descriptors that a process has by default. A browser holds seven at most.
 CONNECTIONS_MAX = 512
@@ -27,6 +29,7 @@ class PatientProtocol(H11Protocol):
 
     head_s = HEAD_S
     body_s = BODY_S
+    read_s = READ_S
     check_every_s = CHECK_EVERY_S
     connections_max = CONNECTIONS_MAX
 
@@ -38,6 +41,8 @@ class PatientProtocol(H11Protocol):
         self.silent_since_s = self.loop.time()
         self._last: object = None
         self.last_received_s = self.silent_since_s
+        # Since when the other end takes nothing of an answer; None while it does.
+        self.unread_since_s: float | None = None
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         """Take the connection; where there are too many, the one that waited longest goes.
@@ -46,10 +51,12 @@ class PatientProtocol(H11Protocol):
         """
         super().connection_made(transport)
         self.silent_since_s = self.last_received_s = self.loop.time()
-        if len(self.connections) > self.connections_max:
-            ours = [one for one in self.connections if isinstance(one, PatientProtocol)]
-            silent = [one for one in ours if one.is_silent and one is not self]
-            sending = [one for one in ours if one.waits_for_body]
+        # One that was let go is here until the loop comes round, also in a burst of new ones.
+        ours = [one for one in self.connections if isinstance(one, PatientProtocol)]
+        going = {one for one in ours if one.transport.is_closing()}
+        if len(self.connections) - len(going) > self.connections_max:
+            silent = [one for one in ours if one.is_silent and one not in going | {self}]
+            sending = [one for one in ours if one.waits_for_body and one not in going]
             longest = min(silent, key=lambda one: one.silent_since_s, default=None) or min(
                 sending, key=lambda one: one.last_received_s, default=self
             )
@@ -60,6 +67,16 @@ class PatientProtocol(H11Protocol):
         """Note that the other end is alive."""
         self.last_received_s = self.loop.time()
         super().data_received(data)
+
+    def pause_writing(self) -> None:
+        """Note since when nothing more of an answer is taken."""
+        self.unread_since_s = self.loop.time()
+        super().pause_writing()
+
+    def resume_writing(self) -> None:
+        """Something was taken."""
+        self.unread_since_s = None
+        super().resume_writing()
 
     def connection_lost(self, exc: Exception | None) -> None:
         """Forget the timer."""
@@ -88,6 +105,10 @@ class PatientProtocol(H11Protocol):
         if self.flow.read_paused:
             # It is we who do not listen.
             self.last_received_s = now_s
+        if self.unread_since_s is not None and now_s - self.unread_since_s >= self.read_s:
+            # What is left to send would keep it open.
+            self.transport.abort()
+            return
         if now_s - self.silent_since_s >= self.head_s or (
             self.waits_for_body and now_s - self.last_received_s >= self.body_s
         ):

@@ -13,6 +13,7 @@ from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 from pydantic import BaseModel, Field
 from starlette.exceptions import HTTPException
+from starlette.requests import ClientDisconnect
 from starlette.responses import Response
 from starlette.types import Receive, Scope, Send
 
@@ -20,6 +21,8 @@ from backend import errors
 from backend.errors import Outcome
 
 MEDIA_TYPE = "application/problem+json"
+# nginx's word for it, in logs alone.
+CLIENT_GONE = 499
 
 
 class FieldProblem(BaseModel):
@@ -263,6 +266,11 @@ def http_problem(request: Request, error: Exception) -> JSONResponse:
     return problem_response(status, code, detail, headers=dict(error.headers or {}))
 
 
+def left_before_the_end(_: Request, __: Exception) -> Response:
+    """The other end is gone; nobody reads this, and nothing went wrong here."""
+    return Response(status_code=CLIENT_GONE)
+
+
 def unexpected_problem(_: Request, __: Exception) -> JSONResponse:
     """A bug of ours. uvicorn logs the trace; the answer does not give the insides away."""
     detail = "Something unexpected went wrong in the server; its log has the details."
@@ -274,4 +282,5 @@ def install(app: FastAPI) -> None:
     app.add_exception_handler(errors.SpindleError, spindle_problem)
     app.add_exception_handler(RequestValidationError, validation_problem)
     app.add_exception_handler(HTTPException, http_problem)
+    app.add_exception_handler(ClientDisconnect, left_before_the_end)
     app.add_exception_handler(Exception, unexpected_problem)

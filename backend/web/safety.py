@@ -166,6 +166,21 @@ class BodyTooLarge(HTTPException):
         super().__init__(413, f"The request body is larger than {bytes_max} bytes.")
 
 
+# A client that is answered while it still sends sees a broken connection and no answer: so much of
+# what it sends is read and dropped before.
+DROPPED_BYTES_MAX = 64 * 1024 * 1024
+
+
+async def drop_body(receive: Receive) -> None:
+    """Read what is left of a request's body, up to a bound."""
+    dropped = 0
+    while dropped < DROPPED_BYTES_MAX:
+        message = await receive()
+        if message["type"] != "http.request" or not message.get("more_body", False):
+            return
+        dropped += len(message.get("body", b""))
+
+
 class BodyBound:
     """Refuses bodies beyond a bound, by their declared length or while they arrive.
 
@@ -187,12 +202,15 @@ class BodyBound:
             return
         is_upload = scope["path"].startswith(self.upload_paths)
         bytes_max = self.upload_bytes_max if is_upload else self.bytes_max
-        declared = Headers(scope=scope).get("content-length", "0")
+        headers = Headers(scope=scope)
+        declared = headers.get("content-length", "0")
         if (
             not declared.isdecimal()
             or len(declared) > LENGTH_DIGITS_MAX
             or int(declared) > bytes_max
         ):
+            if headers.get("expect", "").lower() != "100-continue":
+                await drop_body(receive)
             detail = f"The request body may have at most {bytes_max} bytes, not {declared[:30]}."
             await problem_response(413, "too_large", detail, headers={"connection": "close"})(
                 scope, receive, send
@@ -205,6 +223,8 @@ class BodyBound:
             message = await receive()
             received += len(message.get("body", b""))
             if received > bytes_max:
+                if message.get("more_body", False):
+                    await drop_body(receive)
                 raise BodyTooLarge(bytes_max)
             return message
 

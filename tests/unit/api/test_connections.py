@@ -1,21 +1,28 @@
-"""Goal: sockets that do not talk are let go, and never keep out those that do.
+"""Goal: sockets that do not talk, or do not listen, are let go, and never keep out those that do;
+who sends too much is answered, who leaves in the middle is no fault of the server's.
 
 Method: a real uvicorn on loopback with patience of tenths of a second; 200 sockets at most.
 """
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import http.client
+import json
 import socket
 import threading
-from collections.abc import Iterator
+from collections.abc import AsyncIterator, Iterator
 
 import pytest
 import uvicorn
 from fastapi import FastAPI, Request
+from fastapi.responses import StreamingResponse
+from starlette.types import ASGIApp, Receive, Scope, Send
 
+from backend.web import problem
 from backend.web.connections import PatientProtocol
+from backend.web.safety import BodyBound
 
 PATIENCE_S = 20.0
 
@@ -29,6 +36,14 @@ class Impatient(PatientProtocol):
 
 class PatientWithBodies(Impatient):
     body_s = 60.0
+
+
+class PatientWithHeads(PatientWithBodies):
+    head_s = 60.0
+
+
+class PatientButWithReaders(PatientWithHeads):
+    read_s = 0.3
 
 
 @pytest.fixture(scope="module")
@@ -53,11 +68,11 @@ def small_app() -> FastAPI:
 
 @contextlib.contextmanager
 def serving(
-    protocol: type[PatientProtocol], app: FastAPI | None = None
+    protocol: type[PatientProtocol], app: ASGIApp | None = None
 ) -> Iterator[tuple[str, int]]:
-    with socket.create_server(("127.0.0.1", 0), backlog=256) as listening:
+    with socket.create_server(("127.0.0.1", 0), backlog=512) as listening:
         config = uvicorn.Config(
-            app or small_app(), http=protocol, lifespan="off", log_level="error"
+            app or small_app(), http=protocol, lifespan="off", log_level="error", log_config=None
         )
         server = uvicorn.Server(config)
         thread = threading.Thread(target=lambda: server.run(sockets=[listening]), daemon=True)
@@ -150,3 +165,92 @@ def test_two_hundred_silent_sockets_do_not_keep_a_talker_out(address: tuple[str,
         assert asking.getresponse().read() == b"1"
         assert [ends(one) for one in silent] == [b""] * 200
         asking.close()
+
+
+def test_a_burst_of_silent_sockets_goes_as_one_came_after_the_other() -> None:
+    """They wait in the system's queue while the loop is busy, and come all at once."""
+    app = small_app()
+
+    @app.get("/busy")
+    async def busy() -> int:
+        began.set()
+        go_on.wait(PATIENCE_S)
+        return 1
+
+    began, go_on = threading.Event(), threading.Event()
+    with contextlib.ExitStack() as held:
+        address = held.enter_context(serving(PatientWithHeads, app))
+        keeping = http.client.HTTPConnection(*address, timeout=PATIENCE_S)
+        keeping.request("GET", "/busy")
+        assert began.wait(PATIENCE_S)
+        silent = [held.enter_context(socket.create_connection(address)) for _ in range(300)]
+        go_on.set()
+
+        # A hundred may stay.
+        assert [ends(one) for one in silent[:200]] == [b""] * 200
+        keeping.close()
+
+
+def test_who_asks_and_does_not_read_is_let_go() -> None:
+    """What is left of the answer holds a file open."""
+    let_go = threading.Event()
+
+    async def endless() -> AsyncIterator[bytes]:
+        while True:
+            yield b"x" * 65536
+            await asyncio.sleep(0)
+
+    async def answer(scope: Scope, receive: Receive, send: Send) -> None:
+        try:
+            await StreamingResponse(endless())(scope, receive, send)
+        finally:
+            let_go.set()
+
+    serving_it = serving(PatientButWithReaders, answer)
+    with serving_it as address, socket.create_connection(address) as one:
+        one.sendall(b"GET /large HTTP/1.1\r\nHost: x\r\n\r\n")
+
+        assert let_go.wait(PATIENCE_S)
+
+
+@pytest.mark.parametrize("declared", [True, False])
+def test_who_sends_too_much_is_told_so(declared: bool) -> None:
+    """And not left with a broken connection while it still sends."""
+    app = small_app()
+    problem.install(app)
+    bound = BodyBound(app, 1024, 4096, ())
+    with serving(PatientProtocol, bound) as address:
+        asking = http.client.HTTPConnection(*address, timeout=PATIENCE_S)
+        pieces = (b"x" * 65536 for _ in range(200))
+        headers = {"content-length": str(65536 * 200)} if declared else {}
+        asking.request("POST", "/value", pieces, headers, encode_chunked=not declared)
+        answer = asking.getresponse()
+
+        assert answer.status == 413
+        assert json.loads(answer.read())["code"] == "too_large"
+        asking.close()
+
+
+def test_who_leaves_in_the_middle_of_a_body_is_no_fault(caplog: pytest.LogCaptureFixture) -> None:
+    left = threading.Event()
+    app = FastAPI()
+    problem.install(app)
+
+    @app.post("/value")
+    async def take(request: Request) -> int:
+        try:
+            return sum([len(piece) async for piece in request.stream()])
+        finally:
+            left.set()
+
+    with serving(PatientProtocol, app) as address:
+        with socket.create_connection(address) as leaving:
+            leaving.sendall(b"POST /value HTTP/1.1\r\nHost: x\r\nContent-Length: 9\r\n\r\nabc")
+        assert left.wait(PATIENCE_S)
+        # The server has dealt with it once it has answered the next.
+        asking = http.client.HTTPConnection(*address, timeout=PATIENCE_S)
+        asking.request("POST", "/value", b"")
+        assert asking.getresponse().read() == b"0"
+        asking.close()
+
+    assert [record.getMessage() for record in caplog.records if record.levelname == "ERROR"] == []
