@@ -426,7 +426,7 @@ def serve_on(listening: socket.socket, settings: Settings) -> int:
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         with open_services(settings) as services:
-            config = server_config(build_app(settings, services))
+            config = server_config(build_app(settings, services), settings.proxies)
             # Files that are being read are read at the next start.
             people = services.people
             first_token = None if people is None else people.accounts.first_token()
@@ -437,12 +437,17 @@ def serve_on(listening: socket.socket, settings: Settings) -> int:
         return 0
 
 
-def server_config(app: FastAPI) -> uvicorn.Config:
-    """How uvicorn runs the application."""
+def server_config(app: FastAPI, proxies: tuple[str, ...] = ()) -> uvicorn.Config:
+    """How uvicorn runs the application.
+
+    proxies: addresses and networks that are believed whom they pass on; nobody else is.
+    """
     return uvicorn.Config(
         app,
         log_level="warning",
         lifespan="off",
+        proxy_headers=bool(proxies),
+        forwarded_allow_ips=",".join(proxies),
         http=PatientProtocol,
         # Compressing 20 small frames a second costs more than it saves on loopback.
         ws_per_message_deflate=False,

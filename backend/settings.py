@@ -13,7 +13,7 @@ import sys
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from ipaddress import ip_address
+from ipaddress import ip_address, ip_network
 from pathlib import Path
 from typing import Any
 
@@ -56,8 +56,10 @@ class Settings:
     device: units opened at the start. db, objects: URLs of the database and the object store.
     bus, jobs: how events and work travel. auth: `required` asks everybody to sign in, `auto` does
     so beyond loopback, `off` says somebody else guards the door. allowed_hosts: names by which
-    browsers may call the server besides localhost. root_path: of the site, below which a proxy has
-    the server (`/spindle`), else empty. upload_bytes_max: largest file taken.
+    browsers may call the server besides localhost. proxies: addresses and networks of the proxies
+    that are believed who asks and whether by TLS (`X-Forwarded-For`, `-Proto`). root_path: of the
+    site, below which a proxy has the server (`/spindle`), else empty. upload_bytes_max: largest
+    file taken.
     author: whose changes those are whose request names nobody; the system's user unless set.
     calibration_limits: tables of the file alone, as of calibration.judgement.
     """
@@ -72,6 +74,7 @@ class Settings:
     jobs: str
     auth: str
     allowed_hosts: tuple[str, ...]
+    proxies: tuple[str, ...]
     root_path: str
     upload_bytes_max: int
     author: str
@@ -135,6 +138,7 @@ def combine(
         "jobs": _one_of(chosen.get("jobs", "inline"), "jobs", JOBS, errors),
         "auth": _one_of(chosen.get("auth", "auto"), "auth", AUTHS, errors),
         "allowed_hosts": _names(chosen.get("allowed_hosts", "")),
+        "proxies": _networks(chosen.get("proxies", ""), errors),
         "root_path": _root_path(str(chosen.get("root_path", "")), errors),
         "upload_bytes_max": _integer(
             chosen.get("upload_bytes_max", 256 * 1024 * 1024),
@@ -206,6 +210,17 @@ def _units(value: Any, errors: list[FieldError]) -> tuple[str, ...]:
 def _names(value: Any) -> tuple[str, ...]:
     parts = value.split(",") if isinstance(value, str) else value
     return tuple(str(part).strip() for part in parts if str(part).strip())
+
+
+def _networks(value: Any, errors: list[FieldError]) -> tuple[str, ...]:
+    names = _names(value)
+    for name in names:
+        try:
+            ip_network(name)
+        except ValueError:
+            message = f"proxies: {name!r} is no address (127.0.0.1) and no network (10.0.0.0/8)."
+            errors.append(FieldError("proxies", "not_a_network", message))
+    return names
 
 
 def _root_path(value: str, errors: list[FieldError]) -> str:

@@ -57,6 +57,15 @@ def test_the_root_path_is_one_that_spindle_does_not_have_itself() -> None:
             combine({}, {"SPINDLE_ROOT_PATH": wrong}, {})
 
 
+def test_proxies_are_addresses_and_networks() -> None:
+    assert combine({}, {}, {}).proxies == ()
+    named = combine({}, {"SPINDLE_PROXIES": "127.0.0.1, 10.0.3.0/24, fd00::/8"}, {}).proxies
+    assert named == ("127.0.0.1", "10.0.3.0/24", "fd00::/8")
+    for wrong in ("*", "proxy.example", "10.0.3.7/24"):
+        with pytest.raises(InvalidRequest, match="no network"):
+            combine({}, {"SPINDLE_PROXIES": wrong}, {})
+
+
 def test_every_wrong_setting_is_named() -> None:
     with pytest.raises(InvalidRequest) as refusal:
         combine({"port": "99999"}, {"SPINDLE_BUS": "pigeon"}, {"colour": "red"})
