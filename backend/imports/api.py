@@ -21,6 +21,7 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Header, HTTPException, Query, Request, Response
 from fastapi.concurrency import run_in_threadpool
+from pydantic import BeforeValidator
 
 from backend.errors import BadFile, InvalidRequest
 from backend.imports.models import Upload, UploadList
@@ -39,6 +40,14 @@ CHECKSUM_MISMATCH = 460
 # A chunk with a checksum is held in memory until it is checked; clients use 0.25 to 1 MiB.
 CHECKED_CHUNK_BYTES_MAX = 16 * 1024 * 1024
 
+OFFSETS = {
+    name: {"description": words, "schema": {"type": kind}}
+    for name, words, kind in (
+        ("Upload-Offset", "Bytes that have arrived.", "integer"),
+        ("Upload-Length", "Bytes of the whole file.", "integer"),
+        ("Upload-Expires", "Until when an unfinished upload is waited for.", "string"),
+    )
+}
 MISMATCH: dict[int | str, dict[str, Any]] = {
     CHECKSUM_MISMATCH: {"description": "The part has not the digest it was sent with."}
 }
@@ -48,6 +57,16 @@ TheRides = Annotated[Rides, provided("rides")]
 UploadChecksum = Annotated[
     str | None, Header(max_length=200, description="Of the part in this request's body.")
 ]
+
+
+def digits(text: object) -> object:
+    """A number of bytes as tus writes it; `+5` and `5.0` are none. Raises ValueError."""
+    if isinstance(text, str) and not (text.isascii() and text.isdecimal()):
+        raise ValueError("is no number of bytes: digits only")
+    return text
+
+
+ByteCount = Annotated[int, Header(ge=0, le=2**53), BeforeValidator(digits)]
 FileName = Annotated[str, Query(min_length=1, max_length=255, description="The file's own name.")]
 
 
@@ -85,7 +104,7 @@ async def describe_uploads(request: Request) -> Response:
 async def create_upload(
     request: Request,
     uploads: TheUploads,
-    upload_length: Annotated[int, Header(ge=0)],
+    upload_length: ByteCount,
     upload_metadata: Annotated[str, Header(max_length=4000)] = "",
     upload_checksum: UploadChecksum = None,
     tus_resumable: Annotated[str, Header()] = "",
@@ -131,7 +150,9 @@ async def create_upload(
     return _tus_response(201, location=location, upload_offset=str(offset), **_expiry(upload))
 
 
-@router.head("/uploads/{upload_id}", operation_id="get_upload_offset")
+@router.head(
+    "/uploads/{upload_id}", operation_id="get_upload_offset", responses={200: {"headers": OFFSETS}}
+)
 async def get_upload_offset(upload_id: str, uploads: TheUploads) -> Response:
     """How many bytes have arrived: where to go on after a break."""
     upload = await run_in_threadpool(uploads.get, upload_id)
@@ -146,7 +167,7 @@ async def append_upload(
     upload_id: str,
     request: Request,
     uploads: TheUploads,
-    upload_offset: Annotated[int, Header(ge=0)],
+    upload_offset: ByteCount,
     upload_checksum: UploadChecksum = None,
     tus_resumable: Annotated[str, Header()] = "",
 ) -> Response:

@@ -126,6 +126,30 @@ def test_a_part_longer_than_its_upload_stores_nothing(
     assert (rest.status_code, rest.headers["upload-offset"]) == (204, "10")
 
 
+@pytest.mark.parametrize("length", ["+5", "5.0", " 5_0", "٥", "-1", "1e3", str(2**53 + 1)])
+def test_a_length_is_written_in_digits(bench: UploadDesk, length: str) -> None:
+    begun = TUS | {"upload-length": length.encode()}
+    sent = CHUNK | {"upload-offset": length.encode()}
+
+    created = bench.client.post("/api/v1/uploads", headers=begun)
+    appended = bench.client.patch(bench.begin(LENGTH), headers=sent, content=b"1")
+
+    assert (created.status_code, appended.status_code) == (422, 422)
+
+
+def test_unfinished_uploads_are_so_many_and_no_more(
+    bench: UploadDesk, store: Store, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("backend.store.uploads.UNFINISHED_MAX", 3)
+    first, *_ = [bench.begin(LENGTH) for _ in range(3)]
+
+    refused = bench.client.post("/api/v1/uploads", headers=TUS | {"upload-length": "10"})
+    assert (refused.status_code, refused.json()["code"]) == (409, "uploads_full")
+    assert bench.client.delete(first, headers=TUS).status_code == 204
+    bench.begin(LENGTH)
+    assert len(list((store.objects.root / ".spool").iterdir())) == 3
+
+
 def test_a_first_part_longer_than_its_upload_begins_none(bench: UploadDesk) -> None:
     for body in (b"0123456789a", in_pieces(b"0123456789", b"a")):
         answer = bench.client.post(
