@@ -46,7 +46,12 @@ def evaluate_calibration(body: EvaluationRequest) -> Evaluation:
     return evaluate(body.full_scale_nm, body.load_nm, body.forward, body.reverse)
 
 
-@router.post("", operation_id="open_calibration", status_code=201, responses=UNIT)
+@router.post(
+    "",
+    operation_id="open_calibration",
+    status_code=201,
+    responses={**UNIT, 200: {"model": Job, "description": "The one that is open already"}},
+)
 def open_calibration(
     body: JobRequest, calibrations: Provided, response: Response, author: Author
 ) -> Job:

@@ -9,6 +9,7 @@ from fastapi import APIRouter, Depends, Query, Request, Response, status
 from fastapi.responses import JSONResponse, StreamingResponse
 
 from backend.core.channels import channel_names
+from backend.rides.files import MEDIA_TYPES
 from backend.rides.insight.ledger import EnergyLedger
 from backend.rides.insight.table_use import UseOfTable
 from backend.rides.models import Figure, Ride, RideList, RidePatch, Series, Track
@@ -29,6 +30,7 @@ from backend.web.problem import DAMAGED, refusals
 from backend.web.responses import json_response, streamed_json, while_connected
 from backend.web.services import provided
 
+EXPORTED: dict[str, Any] = {media_type.split(";")[0]: {} for media_type in MEDIA_TYPES.values()}
 router = APIRouter(prefix="/rides", tags=["rides"], responses=refusals(404, 409, 415))
 TheEnergyLedger = Annotated[EnergyLedger, provided("ledger")]
 TheRideAgain = Annotated[RideAgain, provided("ride_again")]
@@ -133,7 +135,7 @@ def get_ride_figure(
     "/{ride_id}/export",
     operation_id="export_ride",
     response_class=StreamingResponse,
-    responses={**DAMAGED, 200: {"content": {"application/octet-stream": {}}}},
+    responses={**DAMAGED, 200: {"content": EXPORTED}},
 )
 def export_ride(
     ride_id: RideId,

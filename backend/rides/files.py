@@ -37,6 +37,15 @@ PIECE_BYTES = 1 << 16
 CSV_ROWS = 4096
 
 
+MEDIA_TYPES = {
+    "csv": "text/csv; charset=utf-8",
+    "parquet": "application/vnd.apache.parquet",
+    "fit": "application/vnd.ant.fit",
+    "gpx": "application/gpx+xml",
+    "original": "application/octet-stream",
+}
+
+
 @dataclass(frozen=True)
 class Export:
     """A ride as a file; `chunks` is read once. size_bytes: where it is known before."""
@@ -65,16 +74,15 @@ def export(store: Store, ride: Ride, file_format: str) -> Export:
 def as_csv(store: Store, ride: Ride) -> Export:
     """Every recorded row and channel as text."""
     rows = verified(store, ride).chunks(list(export_names(ride)), CSV_ROWS)
-    return Export(f"{stem(ride)}.csv", "text/csv; charset=utf-8", csv_chunks(ride, rows))
+    return Export(f"{stem(ride)}.csv", MEDIA_TYPES["csv"], csv_chunks(ride, rows))
 
 
 def as_parquet(store: Store, ride: Ride) -> Export:
     """Every recorded row and channel as doubles in their units."""
     names = export_names(ride)
     rows = verified(store, ride).chunks(list(names), ROW_GROUP_ROWS)
-    media_type = "application/vnd.apache.parquet"
     chunks = physical_chunks(ride.started_us, names, facts_of(ride), rows)
-    return Export(f"{stem(ride)}.parquet", media_type, chunks)
+    return Export(f"{stem(ride)}.parquet", MEDIA_TYPES["parquet"], chunks)
 
 
 def as_fit(store: Store, ride: Ride) -> Export:
@@ -84,7 +92,7 @@ def as_fit(store: Store, ride: Ride) -> Export:
         raise InvalidRequest(
             f"Ride {ride.id} has no sample yet that a FIT file could hold.", code="no_rows"
         )
-    return as_file(f"{stem(ride)}.fit", "application/vnd.ant.fit", fit.fit_file(ride, ridden))
+    return as_file(f"{stem(ride)}.fit", MEDIA_TYPES["fit"], fit.fit_file(ride, ridden))
 
 
 def as_gpx(store: Store, ride: Ride) -> Export:
@@ -94,7 +102,7 @@ def as_gpx(store: Store, ride: Ride) -> Export:
         raise InvalidRequest(
             f"Ride {ride.id} has no position, and a GPX file is a track.", code="no_positions"
         )
-    return as_file(f"{stem(ride)}.gpx", "application/gpx+xml", gpx.gpx_file(ride, ridden))
+    return as_file(f"{stem(ride)}.gpx", MEDIA_TYPES["gpx"], gpx.gpx_file(ride, ridden))
 
 
 def as_original(store: Store, ride: Ride) -> Export:
@@ -105,8 +113,8 @@ def as_original(store: Store, ride: Ride) -> Export:
     if upload.object_key is None:
         raise NotFound(f"The original file of ride {ride.id} is not here.")
     file = store.soundness.open_original(ride, upload.name, upload.object_key, upload.length)
-    media_type = "application/octet-stream"
-    return Export(safe_name(upload.name), media_type, file_chunks(file), upload.length)
+    name = safe_name(upload.name)
+    return Export(name, MEDIA_TYPES["original"], file_chunks(file), upload.length)
 
 
 FORMATS: dict[str, Callable[[Store, Ride], Export]] = {
