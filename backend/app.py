@@ -39,12 +39,13 @@ from backend.web.permissions import Anyone
 P = Permission
 OPERATIONS: dict[Permission | Anyone, str] = {
     Anyone.STRANGER: "get_not_built get_healthz get_readyz get_session sign_in make_first_person",
-    Anyone.SIGNED_IN: "sign_out change_own_password give_ticket get_description get_docs",
+    Anyone.SIGNED_IN: "sign_out change_own_password give_ticket list_keys add_key revoke_key "
+    "get_description get_docs",
     P.COMPUTE: "compute_surface compute_points compute_torque_surface compute_mode_curves "
     "lint_table why_steady evaluate_calibration read_fis list_scenarios",
     P.SEE_SERVER: "get_health get_store list_ports",
     P.BACK_UP: "get_backup",
-    P.MANAGE_PEOPLE: "list_people add_person change_person list_keys add_key revoke_key",
+    P.MANAGE_PEOPLE: "list_people add_person change_person remove_person",
     P.SEE_BIKES: "list_devices get_device get_snapshot get_service get_dashboard list_faults "
     "moment_of_fault get_simulation list_logs get_log_download list_parameters get_config "
     "get_last_known list_revisions since_revision why_of_device get_trial_values get_part "

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from datetime import datetime
 from enum import StrEnum
 from typing import Literal
+from unicodedata import normalize
 
 from backend.core.described import described
 
@@ -92,14 +93,16 @@ class Person:
 
 @dataclass(frozen=True)
 class Caller:
-    """Who is behind a request. by_cookie: a browser sent the proof by itself, unasked."""
+    """Who is behind a request, by a session or a key. by_cookie: a browser sent the proof by
+    itself, unasked."""
 
     person: Person
     permissions: frozenset[Permission]
     by_cookie: bool = False
     session_id: int | None = None
+    key_id: int | None = None
 
 
 def folded(name: str) -> str:
-    """A name as it is compared: case does not tell people apart."""
-    return name.casefold()
+    """A name as it is compared: neither case nor width tells people apart (Unicode's NFKC)."""
+    return normalize("NFKC", normalize("NFKC", name).casefold())

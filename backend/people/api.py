@@ -7,7 +7,13 @@ from typing import Annotated
 from fastapi import APIRouter, Depends, Path, Query, Request, Response
 
 from backend.core.person import Caller, Person
-from backend.errors import Conflict, NotAllowed, NotSignedIn
+from backend.errors import Conflict, NotFound, NotSignedIn
+from backend.people.authority import (
+    require_scopes_within,
+    require_session,
+    require_within,
+    whose_keys,
+)
 from backend.people.service import PeopleService
 from backend.people.tokens import VALID_S
 from backend.people.types import (
@@ -61,8 +67,7 @@ Asking = Annotated[Caller, Depends(asking)]
 
 def in_browser(caller: Asking) -> Caller:
     """The signed-in user, by a session. Raises NotAllowed for a key."""
-    if caller.session_id is None:
-        raise NotAllowed("A key cannot do this: sign in.", "needs_session")
+    require_session(caller)
     return caller
 
 
@@ -167,8 +172,9 @@ def list_people(people: PeopleOf) -> People:
     status_code=201,
     responses=refusals(401, 403, 409, 429),
 )
-def add_person(body: PersonIn, people: PeopleOf) -> Person:
+def add_person(body: PersonIn, people: PeopleOf, caller: InBrowser) -> Person:
     """A new account."""
+    require_within(caller, body.role)
     password = body.password.get_secret_value()
     return people.accounts.add(body.name, body.role, password)
 
@@ -178,9 +184,28 @@ def add_person(body: PersonIn, people: PeopleOf) -> Person:
     operation_id="change_person",
     responses=refusals(401, 403, 404, 409, 429),
 )
-def change_person(person_id: Id, body: PersonChange, people: PeopleOf) -> Person:
-    """Another role or password, or disabled; with the last two every browser is signed out."""
+def change_person(person_id: Id, body: PersonChange, people: PeopleOf, caller: Asking) -> Person:
+    """Another name, role or password, or disabled; with the last two every browser is signed out.
+
+    What was done under the name before keeps that name.
+    """
+    before = people.accounts.get(person_id)
+    require_within(caller, before.role, body.role or before.role)
+    if body.password is not None:
+        require_session(caller)
     return people.accounts.change(person_id, body)
+
+
+@router.delete(
+    "/people/{person_id}",
+    operation_id="remove_person",
+    status_code=204,
+    responses=refusals(401, 403, 404, 409),
+)
+def remove_person(person_id: Id, people: PeopleOf, caller: InBrowser) -> None:
+    """Removes an account with its sessions and keys. What it did stays under its name."""
+    require_within(caller, people.accounts.get(person_id).role)
+    people.accounts.remove(person_id)
 
 
 @router.get(
@@ -188,9 +213,9 @@ def change_person(person_id: Id, body: PersonChange, people: PeopleOf) -> Person
     operation_id="list_keys",
     responses=refusals_only(401, 403, 409),
 )
-def list_keys(people: PeopleOf) -> ApiKeys:
-    """Every key, newest first, revoked ones too."""
-    return ApiKeys(people.keys.list())
+def list_keys(people: PeopleOf, caller: Asking) -> ApiKeys:
+    """Every key, newest first, revoked ones too; one's own where others' are not one's affair."""
+    return ApiKeys(people.keys.list(whose_keys(caller)))
 
 
 @router.post(
@@ -200,8 +225,15 @@ def list_keys(people: PeopleOf) -> ApiKeys:
     responses=refusals(401, 403, 404, 409),
 )
 def add_key(body: ApiKeyIn, people: PeopleOf, caller: Asking) -> NewApiKey:
-    """A new key. It is in this answer and nowhere else: only its hash is kept."""
+    """A new key. It is in this answer and nowhere else: only its hash is kept.
+
+    For oneself; for others by who manages people. Nobody gives more than they have.
+    """
+    require_session(caller)
+    require_scopes_within(caller, body.scopes)
     whose = caller.person.id if body.person_id is None else body.person_id
+    if whose_keys(caller) not in (None, whose):
+        raise NotFound(f"There is no account {whose}.")
     key, secret = people.keys.add(whose, body.name, set(body.scopes), body.expires_at)
     return NewApiKey(key, secret)
 
@@ -212,9 +244,9 @@ def add_key(body: ApiKeyIn, people: PeopleOf, caller: Asking) -> NewApiKey:
     status_code=204,
     responses=refusals(401, 403, 404, 409),
 )
-def revoke_key(key_id: Id, people: PeopleOf) -> None:
-    """Ends a key; it stays in the list."""
-    people.keys.revoke(key_id)
+def revoke_key(key_id: Id, people: PeopleOf, caller: Asking) -> None:
+    """Ends a key, one's own or, by who manages people, anybody's; it stays in the list."""
+    people.keys.revoke(key_id, whose_keys(caller))
 
 
 def begun(

@@ -77,37 +77,75 @@ class AccountStore:
             count = connection.execute(select(func.count()).select_from(t.account)).scalar_one()
             if count >= ACCOUNTS_MAX:
                 raise Conflict(f"There are {ACCOUNTS_MAX} accounts, and no more.", "people_full")
-            taken = select(t.account.c.id).where(t.account.c.folded == folded(name))
-            if connection.execute(taken).first() is not None:
-                raise Conflict(f"Somebody is called {name!r} already.", "name_taken")
+            require_free(connection, name)
             made = insert(t.account).values(values).returning(t.account)
             return person_of(connection.execute(made).one())
 
         return self._database.write(work)
 
-    def change(self, person_id: int, changes: Mapping[str, Any], sign_out: bool) -> Person:
-        """Give an account another role or password (its hash), or disable or enable it.
+    def get(self, person_id: int) -> Person:
+        """One account. Raises NotFound."""
+        return self._database.read(lambda connection: account_of(connection, person_id))
 
-        sign_out: every browser it signed in with. Raises NotFound; Conflict `last_admin` where
-        nobody would be left who may manage people; StoreError.
+    def change(self, person_id: int, changes: Mapping[str, Any], sign_out: bool) -> Person:
+        """Give an account another name, role or password (its hash), or disable or enable it.
+
+        sign_out: every browser it signed in with. Raises NotFound; Conflict `name_taken`, and
+        `last_admin` where nobody would be left who may manage people; StoreError.
         """
 
         def work(connection: Connection) -> Person:
-            mine = t.account.c.id == person_id
-            existing = connection.execute(select(t.account).where(mine)).first()
-            if existing is None:
-                raise NotFound(f"There is no account {person_id}.")
+            before = account_of(connection, person_id)
+            values = dict(changes)
+            if "name" in values:
+                values["folded"] = folded(values["name"])
+                if values["folded"] != folded(before.name):
+                    require_free(connection, values["name"])
             had_admin = admins(connection) > 0
-            if changes:
-                connection.execute(update(t.account).where(mine).values(**changes))
-            if had_admin and not admins(connection):
-                message = "Nobody would be left who may manage people: make another admin first."
-                raise Conflict(message, "last_admin")
+            if values:
+                mine = t.account.c.id == person_id
+                connection.execute(update(t.account).where(mine).values(**values))
+            require_admin(connection, had_admin)
             if sign_out:
                 connection.execute(delete(t.session).where(t.session.c.account_id == person_id))
-            return person_of(connection.execute(select(t.account).where(mine)).one())
+            return account_of(connection, person_id)
 
         return self._database.write(work)
+
+    def remove(self, person_id: int) -> None:
+        """Remove an account, its sessions and keys. Raises NotFound, Conflict `last_admin`."""
+
+        def work(connection: Connection) -> None:
+            account_of(connection, person_id)
+            had_admin = admins(connection) > 0
+            for table in (t.session, t.api_key):
+                connection.execute(delete(table).where(table.c.account_id == person_id))
+            connection.execute(delete(t.account).where(t.account.c.id == person_id))
+            require_admin(connection, had_admin)
+
+        self._database.write(work)
+
+
+def account_of(connection: Connection, person_id: int) -> Person:
+    """One account. Raises NotFound."""
+    row = connection.execute(select(t.account).where(t.account.c.id == person_id)).first()
+    if row is None:
+        raise NotFound(f"There is no account {person_id}.")
+    return person_of(row)
+
+
+def require_free(connection: Connection, name: str) -> None:
+    """Raises Conflict `name_taken`."""
+    taken = select(t.account.c.id).where(t.account.c.folded == folded(name))
+    if connection.execute(taken).first() is not None:
+        raise Conflict(f"Somebody is called {name!r} already.", "name_taken")
+
+
+def require_admin(connection: Connection, had_admin: bool) -> None:
+    """Raises Conflict `last_admin` where nobody is left who may manage people."""
+    if had_admin and not admins(connection):
+        message = "Nobody would be left who may manage people: make another admin first."
+        raise Conflict(message, "last_admin")
 
 
 def admins(connection: Connection) -> int:
@@ -171,15 +209,7 @@ class SessionStore:
 
     def of_token(self, token_sha256: str, now_us: int) -> tuple[int, Person] | None:
         """The session's number and whose it is; None where it is over or the account disabled."""
-        query = (
-            select(
-                t.account,
-                t.session.c.id.label("session_id"),
-                t.session.c.used_us,
-            )
-            .join(t.session, t.session.c.account_id == t.account.c.id)
-            .where(t.session.c.token_sha256 == token_sha256, t.account.c.enabled, ~over(now_us))
-        )
+        query = sessions(now_us).where(t.session.c.token_sha256 == token_sha256)
         row = self._database.read(lambda connection: connection.execute(query).first())
         if row is None:
             return None
@@ -188,6 +218,12 @@ class SessionStore:
             # Nobody waits for it, and a full disk signs nobody out.
             self._database.submit(lambda c: c.execute(use.values(used_us=now_us)).rowcount)
         return row.session_id, person_of(row)
+
+    def person_of(self, session_id: int, now_us: int) -> Person | None:
+        """Whose session it is; None where it is over or the account disabled."""
+        query = sessions(now_us).where(t.session.c.id == session_id)
+        row = self._database.read(lambda connection: connection.execute(query).first())
+        return None if row is None else person_of(row)
 
     def close(self, session_id: int) -> None:
         """Sign one browser out. Raises StoreError."""
@@ -198,6 +234,13 @@ class SessionStore:
         """Sign a person out everywhere. Raises StoreError."""
         gone = delete(t.session).where(t.session.c.account_id == person_id)
         self._database.write(lambda connection: connection.execute(gone).rowcount)
+
+
+def sessions(now_us: int) -> Select[Any]:
+    """Every session that is not over, with its person, who is enabled."""
+    columns = (t.account, t.session.c.id.label("session_id"), t.session.c.used_us)
+    joined = select(*columns).join(t.session, t.session.c.account_id == t.account.c.id)
+    return joined.where(t.account.c.enabled, ~over(now_us))
 
 
 def over(now_us: int) -> ColumnElement[bool]:
@@ -211,9 +254,11 @@ class KeyStore:
     def __init__(self, database: Database) -> None:
         self._database = database
 
-    def list(self) -> tuple[ApiKey, ...]:
-        """Every key, newest first, revoked ones too."""
+    def list(self, person_id: int | None = None) -> tuple[ApiKey, ...]:
+        """Keys of a person, or all, newest first, revoked ones too."""
         query = keys().order_by(t.api_key.c.id.desc())
+        if person_id is not None:
+            query = query.where(t.api_key.c.account_id == person_id)
         rows = self._database.read(lambda connection: connection.execute(query).all())
         return tuple(key_of(row) for row in rows)
 
@@ -251,11 +296,16 @@ class KeyStore:
 
         return self._database.write(work)
 
-    def revoke(self, key_id: int, now_us: int) -> None:
-        """End a key; ended again it stays as it is. Raises NotFound, StoreError."""
+    def revoke(self, key_id: int, now_us: int, person_id: int | None = None) -> None:
+        """End a key, if need be only of this person; ended again it stays as it is.
+
+        Raises NotFound, StoreError.
+        """
 
         def work(connection: Connection) -> None:
             mine = t.api_key.c.id == key_id
+            if person_id is not None:
+                mine &= t.api_key.c.account_id == person_id
             if connection.execute(select(t.api_key.c.id).where(mine)).first() is None:
                 raise NotFound(f"There is no key {key_id}.")
             still = mine & t.api_key.c.revoked_us.is_(None)
@@ -265,15 +315,21 @@ class KeyStore:
 
     def of_prefix(self, prefix: str, now_us: int) -> tuple[ApiKey, Person, str] | None:
         """A key that counts, whose it is, and the hash of its secret; None where there is none."""
+        return self._counting(t.api_key.c.prefix == prefix, now_us)
+
+    def of_number(self, key_id: int, now_us: int) -> tuple[ApiKey, Person, str] | None:
+        """As `of_prefix`, by the key's number."""
+        return self._counting(t.api_key.c.id == key_id, now_us)
+
+    def _counting(
+        self, which: ColumnElement[bool], now_us: int
+    ) -> tuple[ApiKey, Person, str] | None:
+        columns = (t.account, t.api_key.c.id.label("key_id"), t.api_key.c.secret_sha256)
         query = (
-            select(
-                t.account,
-                t.api_key.c.id.label("key_id"),
-                t.api_key.c.secret_sha256,
-            )
+            select(*columns)
             .join(t.api_key, t.api_key.c.account_id == t.account.c.id)
             .where(
-                t.api_key.c.prefix == prefix,
+                which,
                 t.account.c.enabled,
                 t.api_key.c.revoked_us.is_(None),
                 t.api_key.c.expires_us.is_(None) | (t.api_key.c.expires_us > now_us),

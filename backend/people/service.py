@@ -7,11 +7,12 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Iterable
+from dataclasses import replace
 from datetime import datetime
 from typing import Any
 
 from backend.core.author import tidy_author
-from backend.core.person import ROLES, Caller, Permission, Person, RoleName
+from backend.core.person import ROLES, Caller, Permission, Person, RoleName, folded
 from backend.errors import NotAllowed
 from backend.people.passwords import Passwords, field_refusal, require_good
 from backend.people.records import AccountStore, KeyStore, SessionStore
@@ -42,19 +43,29 @@ class Accounts:
         require_good(password, name)
         return self._accounts.add(name, role, self._passwords.hashed(password))
 
+    def get(self, person_id: int) -> Person:
+        """One account. Raises NotFound, StoreError."""
+        return self._accounts.get(person_id)
+
+    def remove(self, person_id: int) -> None:
+        """An account, its sessions and keys. Raises NotFound, Conflict `last_admin`, StoreError."""
+        self._accounts.remove(person_id)
+
     def change(self, person_id: int, change: PersonChange) -> Person:
-        """Another role, another password, disabled or enabled; whoever it is signs in anew where
+        """Another name, role or password, disabled or enabled; whoever it is signs in anew where
         the password or the right to be here went.
 
-        Raises NotFound, InvalidRequest, Conflict `last_admin`, StoreError.
+        Raises NotFound, InvalidRequest, Conflict `name_taken` and `last_admin`, StoreError.
         """
         changes: dict[str, Any] = {}
+        if change.name is not None:
+            changes["name"] = good_name(change.name)
         if change.role is not None:
             changes["role"] = change.role
         if change.enabled is not None:
             changes["enabled"] = change.enabled
         if change.password is not None:
-            name = next((one.name for one in self.list() if one.id == person_id), "")
+            name = changes.get("name") or self.get(person_id).name
             password = change.password.get_secret_value()
             require_good(password, name)
             changes["password"] = self._passwords.hashed(password)
@@ -93,9 +104,9 @@ class Keys:
     def __init__(self, keys: KeyStore) -> None:
         self._keys = keys
 
-    def list(self) -> tuple[ApiKey, ...]:
-        """Every key, newest first. Raises StoreError."""
-        return self._keys.list()
+    def list(self, person_id: int | None = None) -> tuple[ApiKey, ...]:
+        """Keys of a person, or all, newest first. Raises StoreError."""
+        return self._keys.list(person_id)
 
     def add(
         self, person_id: int, name: str, scopes: Iterable[Permission], expires_at: datetime | None
@@ -114,9 +125,9 @@ class Keys:
         )
         return key, shown
 
-    def revoke(self, key_id: int) -> None:
-        """End a key. Raises NotFound, StoreError."""
-        self._keys.revoke(key_id, time.time_ns() // 1000)
+    def revoke(self, key_id: int, person_id: int | None = None) -> None:
+        """End a key, if need be only of this person. Raises NotFound, StoreError."""
+        self._keys.revoke(key_id, time.time_ns() // 1000, person_id)
 
     def caller(self, shown: str) -> Caller | None:
         """Who sends a key: its person, with what the key is for and the role still allows; None
@@ -128,13 +139,22 @@ class Keys:
             return None
         key, person, _ = matching_key
         self._keys.note_use(key, now_us)
-        return Caller(person, ROLES[person.role] & set(key.scopes))
+        return Caller(person, ROLES[person.role] & set(key.scopes), key_id=key.id)
+
+    def renewed(self, caller: Caller) -> Caller | None:
+        """What a key is for now; None where it is over or was revoked. Raises StoreError."""
+        matching_key = self._keys.of_number(caller.key_id or 0, time.time_ns() // 1000)
+        if matching_key is None:
+            return None
+        key, person, _ = matching_key
+        return replace(caller, person=person, permissions=ROLES[person.role] & set(key.scopes))
 
 
 def good_name(name: str) -> str:
     """A name as it is kept. Raises InvalidRequest where there is none or it is too long."""
     tidy = tidy_author(name)
-    if not 0 < len(tidy) <= NAME_MAX:
+    # One character of Arabic can be eighteen when names are compared.
+    if not 0 < len(tidy) <= NAME_MAX or len(folded(tidy)) > 2 * NAME_MAX:
         raise field_refusal("name", "not_a_name", f"A name has 1 to {NAME_MAX} characters.")
     return tidy
 
@@ -158,8 +178,14 @@ class PeopleService:
         return self.keys.caller(key)
 
     def of_ticket(self, ticket: str) -> Caller | None:
-        """Who opens a socket with a ticket; it opens no other."""
-        return self.tickets.take(ticket)
+        """Who opens a socket with a ticket; it opens no other. Raises StoreError."""
+        caller = self.tickets.take(ticket)
+        return None if caller is None else self.renewed(caller)
+
+    def renewed(self, caller: Caller) -> Caller | None:
+        """A caller as they are now; None where their session or key is over. Raises StoreError."""
+        of = self.sign_in if caller.session_id is not None else self.keys
+        return of.renewed(caller)
 
     def of_session(self, token: str) -> Caller | None:
         """Whose browser sends a cookie. Raises StoreError."""

@@ -7,6 +7,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from math import ceil
 
 from backend.core.person import Caller, Person, folded
@@ -93,6 +94,13 @@ class SignIn:
             return None
         session_id, person = session
         return Caller(person, person.permissions, by_cookie=True, session_id=session_id)
+
+    def renewed(self, caller: Caller) -> Caller | None:
+        """Who has a session now; None where it is over. Raises StoreError."""
+        person = self._sessions.person_of(caller.session_id or 0, self._now_us())
+        if person is None:
+            return None
+        return replace(caller, person=person, permissions=person.permissions)
 
     def _verified(self, name: str, password: str) -> tuple[Person, str]:
         """The person of a right password, and its hash."""

@@ -65,6 +65,7 @@ class PersonIn(SignInRequest):
 class PersonChange(RequestBody):
     """What is absent stays."""
 
+    name: str | None = Field(default=None, min_length=1, max_length=NAME_MAX)
     role: RoleName | None = None
     enabled: bool | None = None
     password: SecretStr | None = Field(default=None, max_length=4 * PASSWORD_LENGTH_MAX)

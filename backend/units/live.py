@@ -27,6 +27,12 @@ from backend.core.channels import channel_names
 from backend.errors import SpindleError
 from backend.units.watch import LiveItem, LiveRows, StreamNow, Viewer, Watch
 from backend.web.services import provided
+from backend.web.sockets import (
+    CLOSE_NOT_ALLOWED,
+    CLOSE_TOO_MANY,
+    OpenSockets,
+    until_not_allowed,
+)
 
 HEADER = struct.Struct("<IIQHH")
 SEQUENCE_MODULUS = 2**32
@@ -85,8 +91,19 @@ async def live(
     channels: Annotated[str | None, Query(max_length=600)] = None,
     rate_hz: Annotated[float | None, Query(gt=0.0, le=1000.0)] = None,
 ) -> None:
-    """Streams until either side leaves."""
+    """Streams until either side leaves, or until who opened it may not see the unit any more."""
     await socket.accept()
+    sockets: OpenSockets = socket.app.state.sockets
+    with sockets.place(socket) as has_room:
+        if has_room:
+            await _stream(socket, device_id, watch, channels, rate_hz)
+        else:
+            await socket.close(CLOSE_TOO_MANY, "too_many_sockets")
+
+
+async def _stream(
+    socket: WebSocket, device_id: str, watch: Watch, channels: str | None, rate_hz: float | None
+) -> None:
     loop = asyncio.get_running_loop()
     ready = asyncio.Event()
 
@@ -102,9 +119,16 @@ async def live(
         await socket.close(CLOSE_REFUSED, error.code)
         return
     try:
-        await _first_to_end(_send(socket, viewer, ready), _listen(socket))
+        await _first_to_end(
+            _send(socket, viewer, ready), _listen(socket), _end_with_permission(socket)
+        )
     finally:
         watch.leave(viewer)
+
+
+async def _end_with_permission(socket: WebSocket) -> None:
+    await until_not_allowed(socket)
+    await socket.close(CLOSE_NOT_ALLOWED, "not_allowed")
 
 
 async def _send(socket: WebSocket, viewer: Viewer, ready: asyncio.Event) -> None:

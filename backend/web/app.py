@@ -18,6 +18,7 @@ from backend.web.pages import RootPath
 from backend.web.permissions import Anyone, require_permission
 from backend.web.problem import Problem, refusals, refusals_only
 from backend.web.safety import AllowedHosts, BodyBound, SameOriginOnly, SecurityHeaders
+from backend.web.sockets import OpenSockets
 
 PREFIX = "/api/v1"
 # A whole ride is a file and goes another way; the largest honest JSON body is a page of points.
@@ -87,6 +88,7 @@ def create_app(
     app.state.needed = operations.needed
     app.state.upload_bytes_max = settings.upload_bytes_max
     app.state.author = settings.author
+    app.state.sockets = OpenSockets()
     api = APIRouter(prefix=PREFIX)
     for router in operations.routers:
         api.include_router(router)

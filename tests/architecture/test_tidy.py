@@ -19,7 +19,7 @@ FUNCTION_LINES_MAX = 70
 LINE_LENGTH_MAX = 100
 CODE_SUFFIXES = {".py", ".c", ".h", ".ts", ".svelte", ".css"}
 LINES_MAX = {
-    "backend": 1_500,
+    "backend": 1_550,
     "backend/calibration": 7_650,
     "backend/cli": 2_000,
     "backend/core": 2_800,
@@ -28,18 +28,18 @@ LINES_MAX = {
     "backend/imports": 2_800,
     "backend/law": 4_400,
     "backend/paper": 450,
-    "backend/people": 1_250,
+    "backend/people": 1_400,
     "backend/rides": 10_650,
     "backend/server": 300,
-    "backend/store": 7_300,
+    "backend/store": 7_350,
     "backend/tuning": 3_600,
-    "backend/units": 2_200,
-    "backend/web": 1_400,
+    "backend/units": 2_250,
+    "backend/web": 1_550,
     "firmware_protocol": 4_450,
     "frontend": 44_450,
     "sim_device": 21_150,
     "spindle": 700,
-    "tests": 70_850,
+    "tests": 71_300,
     "tools": 4_800,
 }
 """Lines of written code a room may have. A commit lowers a budget with what it removes; one that

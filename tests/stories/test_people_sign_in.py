@@ -8,13 +8,16 @@ from __future__ import annotations
 
 import json
 import re
+from contextlib import suppress
 from importlib.resources import files
 from pathlib import Path
 
 import httpx
 import pytest
+from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
+from backend.people.types import PersonChange
 from spindle.client import Spindle
 from tests.fakes.command import spindle
 from tests.fakes.server import ServerHere, ServerProcess, eventually
@@ -127,3 +130,37 @@ def printed(server: ServerProcess) -> str:
     """The token of the link, once it was printed."""
     found = re.search(r"#first=(\S+)", server.output())
     return found[1] if found else ""
+
+
+# By what somebody loses the right to see a unit.
+LOST: dict[str, dict[str, object]] = {
+    "disabled": {"enabled": False},
+    "lower role": {"role": "rider"},
+    "another password": {"password": "ein neuer Morgen"},
+}
+
+
+@pytest.mark.parametrize("how", ["signed out", "disabled", "lower role", "another password"])
+def test_a_live_picture_ends_with_the_right_to_see_it(tmp_path: Path, how: str) -> None:
+    with ServerHere(tmp_path, [UNIT], **REACHED) as server:
+        people = server.services.people
+        assert people is not None
+        people.accounts.add("admin", "admin", PASSWORD)
+        dealer = people.accounts.add("dealer", "dealer", PASSWORD)
+        browser = httpx.Client(base_url=server.url, headers={"origin": server.url})
+        browser.post("/api/v1/sign-in", json={"name": "dealer", "password": PASSWORD})
+        devices = eventually(lambda: browser.get("/api/v1/devices").json()["items"], bool)
+        address = f"{server.url.replace('http', 'ws')}/api/v1/devices/{devices[0]['id']}/live"
+        cookie = "; ".join(f"{one}={value}" for one, value in browser.cookies.items())
+        with connect(address, origin=server.url, additional_headers={"cookie": cookie}) as socket:
+            assert socket.recv(timeout=30)
+
+            if how == "signed out":
+                browser.delete("/api/v1/session")
+            else:
+                people.accounts.change(dealer.id, PersonChange.model_validate(LOST[how]))
+
+            with suppress(ConnectionClosed):
+                for _ in socket:
+                    pass
+    assert (socket.close_code, socket.close_reason) == (4403, "not_allowed")

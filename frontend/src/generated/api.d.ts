@@ -200,12 +200,18 @@ export interface paths {
         get?: never;
         put?: never;
         post?: never;
-        delete?: never;
+        /**
+         * Remove Person
+         * @description Removes an account with its sessions and keys. What it did stays under its name.
+         */
+        delete: operations["remove_person"];
         options?: never;
         head?: never;
         /**
          * Change Person
-         * @description Another role or password, or disabled; with the last two every browser is signed out.
+         * @description Another name, role or password, or disabled; with the last two every browser is signed out.
+         *
+         *     What was done under the name before keeps that name.
          */
         patch: operations["change_person"];
         trace?: never;
@@ -219,13 +225,15 @@ export interface paths {
         };
         /**
          * List Keys
-         * @description Every key, newest first, revoked ones too.
+         * @description Every key, newest first, revoked ones too; one's own where others' are not one's affair.
          */
         get: operations["list_keys"];
         put?: never;
         /**
          * Add Key
          * @description A new key. It is in this answer and nowhere else: only its hash is kept.
+         *
+         *     For oneself; for others by who manages people. Nobody gives more than they have.
          */
         post: operations["add_key"];
         delete?: never;
@@ -246,7 +254,7 @@ export interface paths {
         post?: never;
         /**
          * Revoke Key
-         * @description Ends a key; it stays in the list.
+         * @description Ends a key, one's own or, by who manages people, anybody's; it stays in the list.
          */
         delete: operations["revoke_key"];
         options?: never;
@@ -5942,6 +5950,8 @@ export interface components {
          * @description What is absent stays.
          */
         PersonChange: {
+            /** Name */
+            name?: string | null;
             /** Role */
             role?: ("rider" | "dealer" | "engineer" | "admin") | null;
             /** Enabled */
@@ -10068,6 +10078,71 @@ export interface operations {
             };
         };
     };
+    remove_person: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                person_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     change_person: {
         parameters: {
             query?: never;
@@ -13769,6 +13844,15 @@ export interface operations {
             };
         };
         responses: {
+            /** @description The one that is open already */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Job"];
+                };
+            };
             /** @description Successful Response */
             201: {
                 headers: {
@@ -17952,6 +18036,10 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
+                    "text/csv": unknown;
+                    "application/vnd.apache.parquet": unknown;
+                    "application/vnd.ant.fit": unknown;
+                    "application/gpx+xml": unknown;
                     "application/octet-stream": unknown;
                 };
             };
@@ -19496,6 +19584,12 @@ export interface operations {
             /** @description Successful Response */
             200: {
                 headers: {
+                    /** @description Bytes that have arrived. */
+                    "Upload-Offset"?: number;
+                    /** @description Bytes of the whole file. */
+                    "Upload-Length"?: number;
+                    /** @description Until when an unfinished upload is waited for. */
+                    "Upload-Expires"?: string;
                     [name: string]: unknown;
                 };
                 content: {

@@ -17,7 +17,7 @@ from alembic.autogenerate import compare_metadata
 from alembic.config import Config
 from alembic.migration import MigrationContext
 from alembic.script import ScriptDirectory
-from sqlalchemy import Connection, create_engine, inspect
+from sqlalchemy import Connection, create_engine, insert, inspect, select
 from sqlalchemy.dialects import postgresql
 from sqlalchemy.schema import CreateTable
 
@@ -26,7 +26,7 @@ from backend.core.revision import Revision
 from backend.errors import StoreError
 from backend.store import Store, open_store
 from backend.store.sql.database import HEAD_REVISION
-from backend.store.sql.tables import metadata
+from backend.store.sql.tables import account, metadata
 from backend.tuning.records import RevisionStore
 
 MIGRATIONS = Path(backend.store.__file__).parent / "sql" / "migrations"
@@ -48,6 +48,30 @@ def test_migrations_and_tables_agree_both_ways(tmp_path: Path) -> None:
     assert left == {"alembic_version"}
     assert differences == []
     assert ScriptDirectory.from_config(config).get_current_head() == HEAD_REVISION
+
+
+def test_names_that_differ_in_width_alone_are_told_apart_when_they_become_one(
+    tmp_path: Path,
+) -> None:
+    engine = create_engine(f"sqlite:///{tmp_path}/schema.db")
+    config = Config()
+    config.set_main_option("script_location", str(MIGRATIONS))
+    rows = [(1, "ＲＩＤＥＲ", "ｒｉｄｅｒ"), (2, "rider", "rider"), (3, "Anna", "anna")]
+
+    with engine.begin() as connection:
+        config.attributes["connection"] = connection
+        command.upgrade(config, "0020")
+        for number, name, compared in rows:
+            values = {"id": number, "name": name, "folded": compared, "role": "rider"}
+            values |= {"enabled": True, "password": "x", "created_us": 0}
+            connection.execute(insert(account).values(values))
+        command.upgrade(config, "0021")
+        found = connection.execute(select(account.c.name, account.c.folded).order_by(account.c.id))
+        names = [tuple(row) for row in found]
+        command.downgrade(config, "0020")
+        command.upgrade(config, "0021")
+
+    assert names == [("ＲＩＤＥＲ", "rider"), ("rider (2)", "rider (2)"), ("Anna", "anna")]
 
 
 def test_a_schema_that_is_not_known_is_refused_and_left_as_it_is(tmp_path: Path) -> None:

@@ -49,6 +49,10 @@ export class PeopleServer {
     return body(this.http.PATCH('/api/v1/people/{person_id}', { params, body: change }))
   }
 
+  async remove(person_id: number): Promise<void> {
+    await body(this.http.DELETE('/api/v1/people/{person_id}', { params: { path: { person_id } } }))
+  }
+
   async keys(): Promise<ApiKey[]> {
     return (await body(this.http.GET('/api/v1/keys'))).items
   }
