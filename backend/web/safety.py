@@ -166,8 +166,8 @@ class BodyTooLarge(HTTPException):
         super().__init__(413, f"The request body is larger than {bytes_max} bytes.")
 
 
-# A client that is answered while it still sends sees a broken connection and no answer: so much of
-# what it sends is read and dropped before.
+# A client whose connection closes while it still sends loses the answer: so much is read and
+# dropped.
 DROPPED_BYTES_MAX = 64 * 1024 * 1024
 
 
@@ -179,6 +179,17 @@ async def drop_body(receive: Receive) -> None:
         if message["type"] != "http.request" or not message.get("more_body", False):
             return
         dropped += len(message.get("body", b""))
+
+
+async def answer_and_drop(response: Response, scope: Scope, receive: Receive, send: Send) -> None:
+    """Answer at once, and close the connection only when the other end has sent its body."""
+
+    async def send_open(message: Message) -> None:
+        await send({**message, "more_body": True} if "body" in message else message)
+
+    await response(scope, receive, send_open)
+    await drop_body(receive)
+    await send({"type": "http.response.body", "body": b""})
 
 
 class BodyBound:
@@ -209,12 +220,13 @@ class BodyBound:
             or len(declared) > LENGTH_DIGITS_MAX
             or int(declared) > bytes_max
         ):
-            if headers.get("expect", "").lower() != "100-continue":
-                await drop_body(receive)
             detail = f"The request body may have at most {bytes_max} bytes, not {declared[:30]}."
-            await problem_response(413, "too_large", detail, headers={"connection": "close"})(
-                scope, receive, send
-            )
+            refusal = problem_response(413, "too_large", detail, headers={"connection": "close"})
+            # Who waits for leave to send does not send.
+            if headers.get("expect", "").lower() == "100-continue":
+                await refusal(scope, receive, send)
+            else:
+                await answer_and_drop(refusal, scope, receive, send)
             return
         received = 0
 

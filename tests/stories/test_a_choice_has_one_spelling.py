@@ -68,7 +68,7 @@ def questions() -> list[str]:
         if "application/json" in operations["get"]["responses"]["200"]["content"]
         if set(re.findall(r"{(\w+)}", path)) <= {"device_id"}
         # This server asks nobody to sign in, and has no accounts to tell of.
-        if operations["get"].get("x-permission") != "manage_people"
+        if operations["get"].get("x-permission") != "manage_people" and path != "/api/v1/keys"
         if not any(
             parameter["required"] and parameter["in"] == "query"
             for parameter in operations["get"].get("parameters", ())

@@ -10,16 +10,19 @@ from __future__ import annotations
 import asyncio
 import json
 import struct
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 from anyio.from_thread import start_blocking_portal
 
 from backend.core.channels import ChannelSpec
+from backend.core.person import Permission
 from backend.device.states import LinkState, StateChanged
 from backend.device.stream import StreamBlock, StreamStarted
 from backend.units.live import frame_of, live
 from backend.units.watch import QUEUE_FRAMES_MAX, Feed, LiveRows, StateNow, Viewer
+from backend.web.sockets import OpenSockets
 
 CHANNELS = (ChannelSpec("speed_kmh", "km/h", 0.01), ChannelSpec("cadence_rpm", "rpm", 0.01))
 PERIOD_US = 10_000
@@ -215,6 +218,13 @@ class Watch:
 
 class ClosedSocket:
     """uvicorn closed it, because no ping was answered; nobody has heard of it yet."""
+
+    def __init__(self) -> None:
+        needed = {"live": Permission.SEE_BIKES}
+        state = SimpleNamespace(sockets=OpenSockets(), authenticator=None, needed=needed)
+        self.app = SimpleNamespace(state=state)
+        self.scope = {"route": SimpleNamespace(name="live")}
+        self.client = None
 
     async def accept(self) -> None: ...
 
