@@ -31,7 +31,7 @@ from backend.people.types import (
     Ticket,
 )
 from backend.web import session_cookie
-from backend.web.permissions import caller_of
+from backend.web.permissions import address_of, caller_of
 from backend.web.problem import refusals, refusals_only
 
 router = APIRouter(tags=["people"], responses=refusals())
@@ -256,8 +256,3 @@ def begun(
     token, person = people.sign_in.sign_in(name, password, address_of(request))
     session_cookie.set_cookie(request, response, token)
     return person
-
-
-def address_of(request: Request) -> str:
-    """Where a request comes from."""
-    return request.client.host if request.client else ""

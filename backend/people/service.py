@@ -7,7 +7,6 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Iterable
-from dataclasses import replace
 from datetime import datetime
 from typing import Any
 
@@ -139,7 +138,7 @@ class Keys:
             return None
         key, person, _ = matching_key
         self._keys.note_use(key, now_us)
-        return Caller(person, ROLES[person.role] & set(key.scopes), key_id=key.id)
+        return caller_by(key, person)
 
     def renewed(self, caller: Caller) -> Caller | None:
         """What a key is for now; None where it is over or was revoked. Raises StoreError."""
@@ -147,7 +146,12 @@ class Keys:
         if matching_key is None:
             return None
         key, person, _ = matching_key
-        return replace(caller, person=person, permissions=ROLES[person.role] & set(key.scopes))
+        return caller_by(key, person)
+
+
+def caller_by(key: ApiKey, person: Person) -> Caller:
+    """Who sends a key, with what it is for and the person's role still allows."""
+    return Caller(person, ROLES[person.role] & set(key.scopes), key_id=key.id)
 
 
 def good_name(name: str) -> str:

@@ -18,7 +18,7 @@ from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
-from sqlalchemy import Connection, Select, func, insert, select, update
+from sqlalchemy import Connection, Select, insert, select, update
 
 from backend.errors import BadFile, Conflict, NotFound, StoreError
 from backend.store.deletion import MADE, RELATED, Deletions, forget_upload, join_source
@@ -50,7 +50,7 @@ class Verdict:
 
 # The spool's name among the parts of the store that may refuse to be written.
 PART = "uploads"
-# More than a fleet sends at once; each has a file and a row until it expires.
+# More than a fleet sends at once; each has a file in the spool until it has arrived or expires.
 UNFINISHED_MAX = 2_000
 
 
@@ -80,6 +80,12 @@ class UploadStore:
 
         Raises Conflict `uploads_full` where too many have begun and not arrived.
         """
+        if part_of is None and sum(1 for _ in self._spool.iterdir()) >= UNFINISHED_MAX:
+            raise Conflict(
+                f"{UNFINISHED_MAX} files have begun to arrive and are not complete: finish or "
+                "remove some, or wait until they expire.",
+                code="uploads_full",
+            )
         token = secrets.token_hex(16)
         with (
             self._objects.watch.writing(PART, "The upload was not begun"),
@@ -100,19 +106,9 @@ class UploadStore:
 
         def work(connection: Connection) -> None:
             container = upload_key(connection, part_of)
-            if container is None and unfinished(connection) >= UNFINISHED_MAX:
-                raise Conflict(
-                    f"{UNFINISHED_MAX} files have begun to arrive and are not complete: finish or "
-                    "remove some, or wait until they expire.",
-                    code="uploads_full",
-                )
             connection.execute(insert(t.upload).values(values | {"part_of": container}))
 
-        try:
-            self._database.write(work)
-        except Conflict:
-            self._path(token).unlink(missing_ok=True)
-            raise
+        self._database.write(work)
         return self.get(token)
 
     def append(self, token: str, offset: int, data: bytes) -> Upload:
@@ -363,14 +359,6 @@ class UploadStore:
         self._database.write(
             lambda c: c.execute(update(t.upload).where(t.upload.c.token == token).values(values))
         )
-
-
-def unfinished(connection: Connection) -> int:
-    """How many uploads have begun of which bytes are still to come."""
-    query = select(func.count()).where(
-        t.upload.c.state == RECEIVING, t.upload.c.received < t.upload.c.length
-    )
-    return connection.execute(query).scalar_one()
 
 
 def rides_sentence(token: str, rides: Sequence[int]) -> str:

@@ -51,17 +51,22 @@ class PatientProtocol(H11Protocol):
         """
         super().connection_made(transport)
         self.silent_since_s = self.last_received_s = self.loop.time()
-        # One that was let go is here until the loop comes round, also in a burst of new ones.
-        ours = [one for one in self.connections if isinstance(one, PatientProtocol)]
-        going = {one for one in ours if one.transport.is_closing()}
-        if len(self.connections) - len(going) > self.connections_max:
-            silent = [one for one in ours if one.is_silent and one not in going | {self}]
-            sending = [one for one in ours if one.waits_for_body and one not in going]
-            longest = min(silent, key=lambda one: one.silent_since_s, default=None) or min(
-                sending, key=lambda one: one.last_received_s, default=self
-            )
-            longest.transport.close()
+        if len(self.connections) > self.connections_max:
+            self._make_room()
         self._next_check = self.loop.call_later(self.check_every_s, self._check)
+
+    def _make_room(self) -> None:
+        ours = [one for one in self.connections if isinstance(one, PatientProtocol)]
+        # One that was let go is here until the loop comes round, also in a burst of new ones.
+        staying = [one for one in ours if not one.transport.is_closing()]
+        if len(self.connections) - len(ours) + len(staying) <= self.connections_max:
+            return
+        silent = [one for one in staying if one.is_silent and one is not self]
+        sending = [one for one in staying if one.waits_for_body]
+        longest = min(silent, key=lambda one: one.silent_since_s, default=None) or min(
+            sending, key=lambda one: one.last_received_s, default=self
+        )
+        longest.transport.close()
 
     def data_received(self, data: bytes) -> None:
         """Note that the other end is alive."""

@@ -38,6 +38,11 @@ def caller_of(connection: HTTPConnection) -> Caller | None:
     return caller
 
 
+def address_of(connection: HTTPConnection) -> str:
+    """Where a request comes from."""
+    return connection.client.host if connection.client else ""
+
+
 async def require_permission(connection: HTTPConnection) -> None:
     """A dependency of every route; without waiting, so that no request takes a thread for it.
 

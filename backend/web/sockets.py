@@ -18,7 +18,7 @@ from backend.core.person import Caller
 from backend.errors import SpindleError
 from backend.web.authentication import Authenticator
 from backend.web.connections import CONNECTIONS_MAX
-from backend.web.permissions import caller_of, operation_of
+from backend.web.permissions import address_of, caller_of, operation_of
 
 CHECK_EVERY_S = 2.0
 # The rest is kept for requests: pages, signing in, health.
@@ -53,7 +53,7 @@ def owner_of(socket: WebSocket) -> str:
     caller = caller_of(socket)
     if caller is not None:
         return f"account {caller.person.id}"
-    return socket.client.host if socket.client else ""
+    return address_of(socket)
 
 
 async def until_not_allowed(socket: WebSocket) -> None:
@@ -61,10 +61,12 @@ async def until_not_allowed(socket: WebSocket) -> None:
     authenticator: Authenticator | None = socket.app.state.authenticator
     caller = caller_of(socket)
     needed = socket.app.state.needed[operation_of(socket)]
+    if authenticator is None or caller is None:
+        # Nobody is asked to sign in.
+        await asyncio.Event().wait()
+        return
     while True:
         await asyncio.sleep(CHECK_EVERY_S)
-        if authenticator is None or caller is None:
-            continue
         now = await run_in_threadpool(caller_now, authenticator, caller)
         if now is None or needed not in now.permissions:
             return

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import contextlib
+import socket
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any, Self, TypeVar
@@ -27,6 +28,19 @@ Answer = TypeVar("Answer")
 LOOK_EVERY_S = 0.05
 # A unit takes the next configuration two seconds of its time after the one before.
 WRITES_EVERY_S = 2.0
+
+
+@contextlib.contextmanager
+def serving(config: uvicorn.Config, listening: socket.socket) -> Iterator[tuple[str, int]]:
+    """Any application on a thread of its own; the address it answers at."""
+    server = uvicorn.Server(config)
+    thread = threading.Thread(target=lambda: server.run(sockets=[listening]), daemon=True)
+    thread.start()
+    try:
+        yield listening.getsockname()
+    finally:
+        server.should_exit = True
+        thread.join(PATIENCE_S)
 
 
 def eventually(

@@ -23,6 +23,7 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 from backend.web import problem
 from backend.web.connections import PatientProtocol
 from backend.web.safety import BodyBound
+from tests.fakes import server
 
 PATIENCE_S = 20.0
 
@@ -74,12 +75,8 @@ def serving(
         config = uvicorn.Config(
             app or small_app(), http=protocol, lifespan="off", log_level="error", log_config=None
         )
-        server = uvicorn.Server(config)
-        thread = threading.Thread(target=lambda: server.run(sockets=[listening]), daemon=True)
-        thread.start()
-        yield listening.getsockname()
-        server.should_exit = True
-        thread.join(PATIENCE_S)
+        with server.serving(config, listening) as address:
+            yield address
 
 
 def ends(talker: socket.socket) -> bytes:

@@ -5,14 +5,12 @@ Method: a real uvicorn as it is configured to serve, with one address that answe
 
 from __future__ import annotations
 
-import threading
-
 import httpx
 import pytest
-import uvicorn
 from fastapi import FastAPI, Request
 
 from backend.main import listening_socket, server_config
+from tests.fakes.server import serving
 
 PASSED_ON = {"x-forwarded-for": "203.0.113.7", "x-forwarded-proto": "https"}
 
@@ -33,13 +31,10 @@ def test_only_a_named_proxy_is_believed(proxies: tuple[str, ...], seen: list[str
         assert request.client is not None
         return [request.client.host, request.url.scheme]
 
-    with listening_socket("127.0.0.1", 0) as listening:
-        server = uvicorn.Server(server_config(app, proxies))
-        thread = threading.Thread(target=lambda: server.run(sockets=[listening]), daemon=True)
-        thread.start()
-        host, port = listening.getsockname()
+    with (
+        listening_socket("127.0.0.1", 0) as listening,
+        serving(server_config(app, proxies), listening) as (host, port),
+    ):
         answer = httpx.get(f"http://{host}:{port}/who", headers=PASSED_ON, timeout=20)
-        server.should_exit = True
-        thread.join(20)
 
     assert answer.json() == seen
