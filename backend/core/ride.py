@@ -141,7 +141,8 @@ class Ride:
     completeness: share of the rows that should be there (0..1), None when nobody can say; a stretch
     filled from a log counts as there. filled: those stretches. events: what happened. cut_short:
     the recording ended while the bike moved, or with its server, so that nobody knows what came
-    after. bike_id: the bike its unit was on; None where the unit is unknown. sport: as the file
+    after. bike_id: the bike its unit was on; None where the unit is unknown. owner_id: the account
+    whose ride it is; None for nobody's. sport: as the file
     calls it, None for none. intake: what became of the file's rows and fields, None for what came
     from no file. metadata: what the device that made the file told beside its rows. same_ride_as:
     another device's recording of the same ride. tags: words its rider gave it. place,
@@ -171,6 +172,7 @@ class Ride:
     summary: RideSummary | None = None
     cut_short: bool = False
     bike_id: int | None = None
+    owner_id: int | None = None
     sport: str | None = None
     intake: Intake | None = None
     metadata: DeviceMetadata = DeviceMetadata()  # noqa: RUF009 - frozen
@@ -217,6 +219,7 @@ class Ride:
             "motor_torque_meaning": self.motor_torque_meaning,
             "unit_key": self.context.unit_key,
             "bike_id": self.bike_id,
+            "owner_id": self.owner_id,
             "device": asdict(self.context),
             "gaps": [asdict(gap) for gap in self.gaps],
             "filled": [asdict(span) for span in self.filled],

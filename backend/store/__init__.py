@@ -6,7 +6,7 @@ from backend.store.health import WriteFault, WriteWatch
 from backend.store.logbook.book import Home, Logbook
 from backend.store.logbook.derived import CardStore
 from backend.store.logbook.find import RidePage, Sought
-from backend.store.logbook.totals import Totals
+from backend.store.logbook.totals import Totals, Whose
 from backend.store.marks import MarkStore
 from backend.store.reader import RideReader
 from backend.store.rides import RideStore
@@ -33,6 +33,7 @@ __all__ = [
     "Upload",
     "UploadStore",
     "Verdict",
+    "Whose",
     "WriteFault",
     "WriteWatch",
     "backup_of",

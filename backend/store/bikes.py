@@ -39,13 +39,44 @@ def bike_of_ride(connection: Connection, context: RideContext, started_us: int) 
         return None
     unit = UnitSighting(key, context.device_serial, None, context.device_model)
     bike_of_unit(connection, key, unit, started_us)
+    return bike_at(connection, key, started_us)
+
+
+def bike_at(connection: Connection, key: str, at_us: int) -> int | None:
+    """The bike a unit was on then; None for one that was on none or was not seen."""
     columns = (t.bike_unit.c.bike_id, t.bike_unit.c.from_us, t.bike_unit.c.to_us)
     mine = select(*columns).where(t.bike_unit.c.unit_key == key)
     rows = connection.execute(mine.order_by(t.bike_unit.c.from_us)).all()
-    begun = [row for row in rows if row.from_us <= started_us] or rows[:1]
-    if not begun or (begun[-1].to_us is not None and begun[-1].to_us <= started_us):
+    begun = [row for row in rows if row.from_us <= at_us] or rows[:1]
+    if not begun or (begun[-1].to_us is not None and begun[-1].to_us <= at_us):
         return None
     return int(begun[-1].bike_id)
+
+
+def owner_at(connection: Connection, bike_id: int | None, at_us: int) -> int | None:
+    """The account whose bike it was then."""
+    owner = t.bike_owner.c
+    query = select(owner.account_id).where(owner.bike_id == bike_id, owner.from_us <= at_us)
+    query = query.where(owner.to_us.is_(None) | (owner.to_us > at_us))
+    return connection.execute(query.order_by(owner.from_us.desc()).limit(1)).scalar()
+
+
+def whose_ride(
+    connection: Connection, context: RideContext, started_us: int, sender_id: int | None = None
+) -> dict[str, int | None]:
+    """The columns that say with which bike a ride was made, and whose it is: the bike's owner's
+    when it began.
+
+    sender_id: the rider who sent its file. It is theirs, and of a bike only if that was theirs,
+    too: nobody adds rides to another's bike.
+    """
+    if sender_id is None:
+        bike_id = bike_of_ride(connection, context, started_us)
+        return {"bike_id": bike_id, "owner_id": owner_at(connection, bike_id, started_us)}
+    key = context.unit_key
+    mine = None if key is None else bike_at(connection, key, started_us)
+    is_mine = mine is not None and owner_at(connection, mine, started_us) == sender_id
+    return {"bike_id": mine if is_mine else None, "owner_id": sender_id}
 
 
 def bike_of_unit(

@@ -133,12 +133,14 @@ def forget_ride(connection: Connection, ride_id: int, now_us: int) -> None:
 
 
 def forget_original(connection: Connection, upload_id: int, now_us: int) -> None:
-    """Delete an upload without rides, and every other judged one of the same bytes without any."""
-    key = connection.execute(
-        select(t.upload.c.object_key).where(t.upload.c.id == upload_id)
-    ).scalar()
+    """Delete an upload without rides, and every other judged one of the same bytes that its sender
+    has without any."""
+    columns = (t.upload.c.object_key, t.upload.c.owner_id)
+    row = connection.execute(select(*columns).where(t.upload.c.id == upload_id)).first()
+    key, owner_id = (None, None) if row is None else row
     with_rides = select(t.ride_source.c.upload_id)
     copies = t.upload.c.object_key == key
+    copies &= t.upload.c.owner_id.is_not_distinct_from(owner_id)
     forget_parts(connection, upload_id, now_us)
     connection.execute(
         delete(t.upload).where(

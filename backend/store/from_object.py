@@ -16,7 +16,7 @@ from pathlib import Path, PurePosixPath
 from sqlalchemy import Connection, delete, insert, select, update
 
 from backend.errors import StoreError
-from backend.store.bikes import bike_of_ride
+from backend.store.bikes import whose_ride
 from backend.store.deletion import FILLED, MADE, join_source
 from backend.store.digest import digest
 from backend.store.discard import named_objects
@@ -35,7 +35,9 @@ from backend.store.sql.sound_rows import NOT_AS_WRITTEN
 LOG = logging.getLogger(__name__)
 
 # What no object knows of its ride's row.
-STAY = (t.ride.c.upload_id, t.ride.c.bike_id, t.ride.c.same_ride_as, t.ride.c.created_us)
+STAY = tuple(
+    t.ride.c[name] for name in ("upload_id", "bike_id", "owner_id", "same_ride_as", "created_us")
+)
 OBJECT_NAME = re.compile(
     r"(rides/([0-9a-f]{2})/(\2[0-9a-f]{62})\.(parquet|json))|"
     r"(originals/([0-9a-f]{2})/(\6[0-9a-f]{62}))|"
@@ -118,7 +120,7 @@ def mend_row(database: Database, objects: FileObjects, soundness: Soundness, rid
     stays = {column.name: row._mapping[column.name] for column in STAY}
 
     def work(connection: Connection) -> None:
-        body = row_of(ride) | {"bike_id": bike_of_ride(connection, ride.context, ride.started_us)}
+        body = row_of(ride) | whose_ride(connection, ride.context, ride.started_us)
         body |= {name: value for name, value in stays.items() if isinstance(value, int)}
         connection.execute(update(t.ride).where(mine).values(body))
         finish_row(connection, ride_id, written)

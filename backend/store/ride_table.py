@@ -32,7 +32,7 @@ from backend.core.ride import (
 from backend.core.ride_card import line_kmh
 from backend.core.ride_events import KINDS, RideEvent
 from backend.errors import FieldError, InvalidRequest
-from backend.store.bikes import bike_of_ride
+from backend.store.bikes import whose_ride
 from backend.store.discard import named_objects, take_back, with_sidecar
 from backend.store.finish import WrittenObject
 from backend.store.sql import tables as t
@@ -171,6 +171,7 @@ def sound_ride(row: Row[Any], tags: tuple[str, ...]) -> Ride:
         summary=RideSummary(**figures) if figures["duration_s"] is not None else None,
         cut_short=bool(body["cut_short"]),
         bike_id=body["bike_id"],
+        owner_id=body["owner_id"],
         sport=body["sport"],
         intake=Intake(**body["intake"]) if body["intake"] else None,
         metadata=metadata_from_json(body["noted"]),
@@ -253,7 +254,13 @@ def inserted(connection: Connection, body: dict[str, object], context: RideConte
     Its unit, and the bike this is on, are made where they are not known.
     """
     started_us = int(str(body["started_us"]))
-    body = body | {"bike_id": bike_of_ride(connection, context, started_us)}
+    sender = select(t.upload.c.owner_id).where(t.upload.c.id == body.get("upload_id"))
+    sender_id = connection.execute(sender).scalar()
+    body = body | whose_ride(connection, context, started_us, sender_id)
+    # Another's recording of the same ride is not beside it: it would count in its place.
+    twin = select(t.ride.c.id).where(t.ride.c.id == body.get("same_ride_as"))
+    twin = twin.where(t.ride.c.owner_id.is_not_distinct_from(body["owner_id"]))
+    body["same_ride_as"] = connection.execute(twin).scalar()
     count = update(t.ride_number).values(last=t.ride_number.c.last + 1)
     ride_id = int(connection.execute(count.returning(t.ride_number.c.last)).scalar_one())
     connection.execute(insert(t.ride).values(body | {"id": ride_id}))
@@ -272,8 +279,8 @@ def correct(
         return
     context = context or RideContext(**row.context | {"unit_key": row.unit_key})
     started_us = row.started_us + by_us
-    bike_id = bike_of_ride(connection, context, started_us)
-    values = whose(context) | {"bike_id": bike_id, "started_us": started_us}
+    of = whose_ride(connection, context, started_us)
+    values = whose(context) | of | {"started_us": started_us}
     connection.execute(update(t.ride).where(mine).values(values))
 
 
@@ -285,12 +292,18 @@ def upload_key(connection: Connection, token: str | None) -> int | None:
 
 
 def upload_file(connection: Connection, token: str | None) -> dict[str, object] | None:
-    """Hash and name of the file that an upload brought, and of the container that it came in."""
-    columns = (t.upload.c.sha256, t.upload.c.name, t.upload.c.part_of)
+    """Hash and name of the file that an upload brought, which rider sent it, and the container
+    that it came in.
+
+    With the sender in it, the same file of two riders makes two objects.
+    """
+    columns = (t.upload.c.sha256, t.upload.c.name, t.upload.c.part_of, t.upload.c.owner_id)
     row = connection.execute(select(*columns).where(t.upload.c.token == token)).first()
     if row is None or row.sha256 is None:
         return None
     file: dict[str, object] = {"sha256": row.sha256, "name": row.name}
+    if row.owner_id is not None:
+        file["sender_id"] = row.owner_id
     if row.part_of is not None:
         container = select(t.upload.c.token).where(t.upload.c.id == row.part_of)
         file["container"] = upload_file(connection, connection.execute(container).scalar())

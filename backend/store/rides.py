@@ -261,7 +261,9 @@ class RideStore:
                 ride_id = inserted(connection, row_of(ride) | {"upload_id": key}, ride.context)
                 finish_row(connection, ride_id, written)
                 # Whichever of both is looked at names the other.
-                twin = (t.ride.c.id == ride.same_ride_as) & t.ride.c.same_ride_as.is_(None)
+                beside = select(t.ride.c.same_ride_as).where(t.ride.c.id == ride_id)
+                twin = t.ride.c.id == connection.execute(beside).scalar()
+                twin &= t.ride.c.same_ride_as.is_(None)
                 connection.execute(update(t.ride).where(twin).values(same_ride_as=ride_id))
                 if key is not None:
                     join_source(connection, ride_id, key, MADE)

@@ -39,7 +39,7 @@ class Upload:
     ride_ids: the rides it became; of a duplicate, the ride that was there before. part_of: the
     container it is within. parts: of a container, how many files within became what.
     doubtful_rides: how many of its rides have doubts that nobody accepted. has_columns: whether its
-    owner can say what it leaves open.
+    owner can say what it leaves open. owner_id: the rider who sent it; None for others.
     """
 
     id: str
@@ -61,6 +61,7 @@ class Upload:
     parts: UploadParts | None = None
     has_columns: bool = False
     doubtful_rides: int = 0
+    owner_id: int | None = None
 
     @property
     def expires_at(self) -> str | None:
@@ -149,5 +150,6 @@ def upload_from_row(
         ride_ids=ride_ids,
         part_of=part_of,
         parts=parts,
+        owner_id=row.owner_id,
         has_columns=row.asks_sha256 is not None or row.name.lower().endswith(TABLE_NAMES),
     )

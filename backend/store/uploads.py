@@ -75,9 +75,11 @@ class UploadStore:
         declared_sha256: str | None,
         expires_s: int,
         part_of: str | None = None,
+        owner_id: int | None = None,
     ) -> Upload:
         """Begin an upload of `size` bytes; nothing has arrived yet, and all must in `expires_s`.
 
+        owner_id: the rider who sends it; of what is in a container, who sent that.
         Raises Conflict `uploads_full` where too many have begun and not arrived.
         """
         if part_of is None and sum(1 for _ in self._spool.iterdir()) >= UNFINISHED_MAX:
@@ -106,7 +108,10 @@ class UploadStore:
 
         def work(connection: Connection) -> None:
             container = upload_key(connection, part_of)
-            connection.execute(insert(t.upload).values(values | {"part_of": container}))
+            sender = select(t.upload.c.owner_id).where(t.upload.c.id == container)
+            whose = owner_id if container is None else connection.execute(sender).scalar()
+            more = {"part_of": container, "owner_id": whose}
+            connection.execute(insert(t.upload).values(values | more))
 
         self._database.write(work)
         return self.get(token)
@@ -232,8 +237,11 @@ class UploadStore:
             select(t.upload).where(t.upload.c.part_of == container).order_by(t.upload.c.id)
         )
 
-    def first_with(self, sha256: str) -> Upload | None:
-        """The first upload of the same bytes that became rides, None when there is none."""
+    def first_with(self, sha256: str, owner_id: int | None = None) -> Upload | None:
+        """The first upload of the same bytes that became rides, None when there is none.
+
+        owner_id: rides of this account only.
+        """
         query = (
             select(t.upload)
             .join(t.ride, t.ride.c.upload_id == t.upload.c.id)
@@ -241,6 +249,8 @@ class UploadStore:
             .order_by(t.upload.c.id)
             .limit(1)
         )
+        if owner_id is not None:
+            query = query.where(t.ride.c.owner_id == owner_id)
         return next(iter(self._uploads_where(query)), None)
 
     def waiting(self) -> tuple[Upload, ...]:
@@ -249,21 +259,47 @@ class UploadStore:
         mine = (t.upload.c.state == "queued") | arrived
         return self._uploads_where(select(t.upload).where(mine).order_by(t.upload.c.id))
 
-    def asking(self, code: str, header_sha256: str) -> Sequence[str]:
+    def asking(self, code: str, header_sha256: str, owner_id: int | None = None) -> Sequence[str]:
         """Ids of the uploads rejected with `code` that wait for what is said of a header, the first
-        first; also those that a version before concluded, of which it is not known."""
+        first; also those that a version before concluded, of which it is not known.
+
+        owner_id: sent by this rider; None for those that are not sent by any.
+        """
         mine = (t.upload.c.state == REJECTED) & (t.upload.c.code == code)
+        mine &= t.upload.c.owner_id.is_not_distinct_from(owner_id)
         header = t.upload.c.asks_sha256
         mine &= (header == header_sha256) | header.is_(None)
         query = select(t.upload.c.token).where(mine).order_by(t.upload.c.id)
         return self._database.read(lambda c: c.execute(query).scalars().all())
 
-    def read_by(self, header_sha256: str) -> Sequence[str]:
-        """Ids of the uploads that became rides by what is known of a header, the first first."""
+    def read_by(self, header_sha256: str, owner_id: int | None = None) -> Sequence[str]:
+        """Ids of the uploads that became rides by what is known of a header, the first first;
+        owner_id as of `asking`."""
         mine = t.upload.c.asks_sha256 == header_sha256
+        mine &= t.upload.c.owner_id.is_not_distinct_from(owner_id)
         mine &= t.upload.c.id.in_(select(t.ride.c.upload_id))
         query = select(t.upload.c.token).where(mine).order_by(t.upload.c.id)
         return self._database.read(lambda c: c.execute(query).scalars().all())
+
+    def answer_of(self, owner_id: int, header_sha256: str) -> dict[str, Any] | None:
+        """What a rider said last of a table with this header; None for nothing."""
+        upload = t.upload.c
+        mine = (upload.owner_id == owner_id) & (upload.asks_sha256 == header_sha256)
+        query = select(upload.answer).where(mine & upload.answer.is_not(None))
+        last = query.order_by(upload.id.desc()).limit(1)
+        return self._database.read(lambda c: c.execute(last).scalar())
+
+    def keep_answer(self, token: str, header_sha256: str, answer: dict[str, Any]) -> None:
+        """Keep what a rider says of the table they sent, for their own with this header."""
+
+        def work(connection: Connection) -> None:
+            of = select(t.upload.c.owner_id).where(t.upload.c.token == token).scalar_subquery()
+            like = (t.upload.c.owner_id == of) & (t.upload.c.asks_sha256 == header_sha256)
+            connection.execute(update(t.upload).where(like).values(answer=None))
+            said = {"asks_sha256": header_sha256, "answer": answer}
+            connection.execute(update(t.upload).where(t.upload.c.token == token).values(said))
+
+        self._database.write(work)
 
     def wait_again(self, token: str, code: str | None) -> None:
         """An upload that was concluded waits to be read once more. code: why."""
@@ -314,10 +350,12 @@ class UploadStore:
         before: str | None = None,
         part_of: str | None = None,
         sha256: str | None = None,
+        owner_id: int | None = None,
     ) -> tuple[Upload, ...]:
         """Uploads, the latest first, from the one before `before` on. Raises NotFound.
 
         part_of: those within this one, else those within none. sha256: of these bytes only.
+        owner_id: sent by this rider only.
         """
         query = select(t.upload).order_by(t.upload.c.id.desc()).limit(limit)
         if part_of is not None:
@@ -327,6 +365,8 @@ class UploadStore:
             query = query.where(t.upload.c.part_of.is_(None))
         if sha256 is not None:
             query = query.where(t.upload.c.sha256 == sha256)
+        if owner_id is not None:
+            query = query.where(t.upload.c.owner_id == owner_id)
         if before is not None:
             last = select(t.upload.c.id).where(t.upload.c.token == before)
             key = self._database.read(lambda c: c.execute(last).scalar())

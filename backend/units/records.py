@@ -65,6 +65,10 @@ class UnitStore:
             for row in rows
         )
 
+    def moved(self) -> None:
+        """Look anew at which bike each unit is on. Raises StoreError."""
+        self._bikes = self._database.read(bikes_now)
+
     def bike_of(self, key: str) -> int | None:
         """The bike a unit is on now; None for one that is on none or was not seen. Never waits."""
         return self._bikes.get(key)

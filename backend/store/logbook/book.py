@@ -22,11 +22,13 @@ from backend.store.sql.database import Database
 
 # Rides tagged in one transaction: a recording waits so long for its turn, 0.2 s on a slow disk.
 RIDES_AT_ONCE = 20
+ANYBODY = totals.Whose()
 
 
 @dataclass(frozen=True)
 class Home:
-    """What the rider's home shows, of all rides or a bike's; the bikes are always all."""
+    """What the rider's home shows, of all rides, a bike's or an account's; the bikes are those of
+    the account."""
 
     by_period: tuple[tuple[totals.Totals, ...], ...]
     bikes: tuple[totals.BikeTotals, ...]
@@ -42,16 +44,16 @@ class Logbook:
         self._database = database
         self._objects = objects
 
-    def home(self, spans: Sequence[Sequence[Period]], bike_id: int | None = None) -> Home:
+    def home(self, spans: Sequence[Sequence[Period]], whose: totals.Whose = ANYBODY) -> Home:
         """Totals for each of the spans of periods, and all else, at one moment."""
 
         def work(connection: Connection) -> Home:
             return Home(
-                tuple(totals.totals_by(connection, span, bike_id) for span in spans),
-                totals.bikes(connection),
-                totals.records(connection, bike_id),
-                totals.last_faults(connection, bike_id),
-                tags_in_use(connection),
+                tuple(totals.totals_by(connection, span, whose) for span in spans),
+                totals.bikes(connection, whose.owner_id),
+                totals.records(connection, whose),
+                totals.last_faults(connection, whose),
+                tags_in_use(connection, whose.owner_id),
             )
 
         return self._database.read(work)
@@ -63,6 +65,20 @@ class Logbook:
     def ids(self, sought: Sought) -> list[int]:
         """Every one of these rides that is over, the oldest first."""
         return self._database.read(lambda c: ids_of(c, sought))
+
+    def own(self, ride_ids: Sequence[int], owner_id: int | None) -> Sequence[int]:
+        """Those of some rides that are this account's, in their order; all for None."""
+        if owner_id is None:
+            return ride_ids
+        mine = select(t.ride.c.id).where(t.ride.c.id.in_(ride_ids), t.ride.c.owner_id == owner_id)
+        own = set(self._database.read(lambda c: c.execute(mine).scalars().all()))
+        return [ride_id for ride_id in ride_ids if ride_id in own]
+
+    def require_own(self, ride_ids: Sequence[int], owner_id: int | None) -> None:
+        """Raises NotFound for a ride that is not this account's, as for one that is not there."""
+        own = set(self.own(ride_ids, owner_id))
+        if foreign := [ride_id for ride_id in ride_ids if ride_id not in own]:
+            raise NotFound(f"There is no ride {foreign[0]}.")
 
     def tag(self, ride_ids: Sequence[int], add: Sequence[str], remove: Sequence[str]) -> None:
         """Add and remove tags of rides. Raises NotFound, InvalidRequest; then none is changed.
@@ -102,9 +118,12 @@ def set_tags(connection: Connection, ride_id: int, tags: Sequence[str]) -> None:
     note_words(connection, ride_id)
 
 
-def tags_in_use(connection: Connection) -> tuple[tuple[str, int], ...]:
-    """Every tag with how many rides have it, the commonest first."""
+def tags_in_use(connection: Connection, owner_id: int | None = None) -> tuple[tuple[str, int], ...]:
+    """Every tag with how many rides, if need be of this account, have it, the commonest first."""
     count = func.count()
     query = select(t.ride_tag.c.tag, count).group_by(t.ride_tag.c.tag)
+    if owner_id is not None:
+        query = query.join(t.ride, t.ride.c.id == t.ride_tag.c.ride_id)
+        query = query.where(t.ride.c.owner_id == owner_id)
     rows = connection.execute(query.order_by(count.desc(), t.ride_tag.c.tag).limit(100))
     return tuple((row[0], row[1]) for row in rows)

@@ -32,15 +32,16 @@ class RidePage:
 class Sought:
     """What rides are looked for; None for whatever.
 
-    device: a unit's key or serial number. from_us, to_us: when they began. longer_km: at least so
-    far. with_motor: the motor's energy is known. with_events: faults or marks. words: all of them
-    in name, notes, tags or place. tag: whatever its case.
+    owner_id: the account whose rides. device: a unit's key or serial number. from_us, to_us: when
+    they began. longer_km: at least so far. with_motor: the motor's energy is known. with_events:
+    faults or marks. words: all of them in name, notes, tags or place. tag: whatever its case.
     """
 
     from_us: int | None = None
     to_us: int | None = None
     device: str | None = None
     bike_id: int | None = None
+    owner_id: int | None = None
     longer_km: float | None = None
     with_motor: bool = False
     with_events: bool = False
@@ -89,6 +90,8 @@ def narrowed(query: Select[Any], sought: Sought) -> Select[Any]:
         query = query.where(
             (ride.unit_key == sought.device) | (ride.device_serial == sought.device)
         )
+    if sought.owner_id is not None:
+        query = query.where(ride.owner_id == sought.owner_id)
     # As sums bike and distance are no terms of an index: SQLite would gather thousands of rides by
     # them and sort these, instead of reading from the newest on until the page is full.
     if sought.bike_id is not None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from sqlalchemy import Connection, Row, Select, case, func, or_, select
 
@@ -68,6 +68,13 @@ class RideFault:
     flags: int
 
 
+class Whose(NamedTuple):
+    """Of which bike and which account rides are; None for any."""
+
+    bike_id: int | None = None
+    owner_id: int | None = None
+
+
 def sums() -> tuple[Any, ...]:
     """The columns of Totals, over rides with figures."""
     s = t.ride_summary.c
@@ -84,24 +91,30 @@ def sums() -> tuple[Any, ...]:
     )
 
 
-def of_bike(query: Select[Any], bike_id: int | None) -> Select[Any]:
-    """Finished rides with their figures, all or a bike's; of two recordings of one the better."""
+def of_rides(query: Select[Any], whose: Whose) -> Select[Any]:
+    """Finished rides of these with their figures; of two recordings of one the better."""
     query = query.select_from(t.ride.join(t.ride_summary, t.ride_summary.c.ride_id == t.ride.c.id))
-    query = query.where(t.ride_summary.c.outdone == 0)
-    if bike_id is None:
-        return query
-    # As a sum it is no term of an index: SQLite would gather every ride of the bike by it and sort
-    # them, instead of reading from the top of a record or the newest on.
-    return query.where(t.ride.c.bike_id + 0 == bike_id)
+    return narrowed(query.where(t.ride_summary.c.outdone == 0), whose)
+
+
+def narrowed(query: Select[Any], whose: Whose) -> Select[Any]:
+    """A query over rides, of these only."""
+    if whose.owner_id is not None:
+        query = query.where(t.ride.c.owner_id == whose.owner_id)
+    if whose.bike_id is not None:
+        # As a sum it is no term of an index: SQLite would gather every ride of the bike by it and
+        # sort them, instead of reading from the top of a record or the newest on.
+        query = query.where(t.ride.c.bike_id + 0 == whose.bike_id)
+    return query
 
 
 def totals_by(
-    connection: Connection, periods: Sequence[Period], bike_id: int | None
+    connection: Connection, periods: Sequence[Period], whose: Whose
 ) -> tuple[Totals, ...]:
     """Totals of each of some periods that follow one another."""
     began = t.ride.c.started_us
     which = case(*((began < period.to_us, index) for index, period in enumerate(periods)))
-    query = of_bike(select(which, *sums()), bike_id)
+    query = of_rides(select(which, *sums()), whose)
     inside = (began >= periods[0].from_us) & (began < periods[-1].to_us)
     totals = {
         row[0]: Totals(*row[1:]) for row in connection.execute(query.where(inside).group_by(which))
@@ -109,9 +122,9 @@ def totals_by(
     return tuple(totals.get(index, Totals()) for index in range(len(periods)))
 
 
-def bikes(connection: Connection) -> tuple[BikeTotals, ...]:
-    """Every bike that was ridden, the one ridden last first."""
-    # As a sum for the same reason as in `of_bike`.
+def bikes(connection: Connection, owner_id: int | None = None) -> tuple[BikeTotals, ...]:
+    """Every bike that was ridden, if need be by this account, the one ridden last first."""
+    # As a sum for the same reason as in `narrowed`.
     bike_id = t.ride.c.bike_id + 0
     query = select(
         bike_id,
@@ -119,14 +132,14 @@ def bikes(connection: Connection) -> tuple[BikeTotals, ...]:
         func.count(),
         func.sum(t.ride_summary.c.distance_km),
     )
-    query = of_bike(query, None).where(bike_id.is_not(None)).group_by(bike_id)
+    query = of_rides(query, Whose(owner_id=owner_id)).where(bike_id.is_not(None)).group_by(bike_id)
     rows = connection.execute(query).all()
     names = {row.id: row.name for row in connection.execute(select(t.bike.c.id, t.bike.c.name))}
     totals = [BikeTotals(row[0], names[row[0]], *row[1:]) for row in rows]
     return tuple(sorted(totals, key=lambda bike: -bike.last_us))
 
 
-def records(connection: Connection, bike_id: int | None) -> tuple[Best, ...]:
+def records(connection: Connection, whose: Whose) -> tuple[Best, ...]:
     """The best of each kind that any ride has."""
     summary, card = t.ride_summary.c, t.ride_card.c
     long_enough = summary.distance_km >= FASTEST_KM_MIN
@@ -138,18 +151,18 @@ def records(connection: Connection, bike_id: int | None) -> tuple[Best, ...]:
     kinds += [(f"power_w_best_{s}s", card[f"power_w_best_{s}s"], None) for s in BEST_S]
     best = []
     for kind, column, also in kinds:
-        row = best_by(connection, column, also, bike_id)
+        row = best_by(connection, column, also, whose)
         if row is not None:
             best.append(Best(kind, float(row[0]), row.id, row.started_us))
     return tuple(best)
 
 
-def best_by(connection: Connection, column: Any, also: Any, bike_id: int | None) -> Row[Any] | None:
+def best_by(connection: Connection, column: Any, also: Any, whose: Whose) -> Row[Any] | None:
     """Value, id and start of the ride that has most of a figure; None where none has any.
 
     One that is doubtful has none, nor one that is not judged yet.
     """
-    query = of_bike(select(column, t.ride.c.id, t.ride.c.started_us), bike_id)
+    query = of_rides(select(column, t.ride.c.id, t.ride.c.started_us), whose)
     query = query.join(t.ride_card, t.ride_card.c.ride_id == t.ride.c.id)
     query = query.where(t.ride_card.c.open_doubts == 0)
     sport = t.ride.c.sport
@@ -161,7 +174,7 @@ def best_by(connection: Connection, column: Any, also: Any, bike_id: int | None)
     return connection.execute(query.order_by(column.desc()).limit(1)).first()
 
 
-def last_faults(connection: Connection, bike_id: int | None) -> tuple[RideFault, ...]:
+def last_faults(connection: Connection, whose: Whose) -> tuple[RideFault, ...]:
     """The faults that came last on a ride, the newest first."""
     query = (
         select(t.ride.c.id, t.ride.c.started_us, t.ride.c.events)
@@ -170,8 +183,7 @@ def last_faults(connection: Connection, bike_id: int | None) -> tuple[RideFault,
         .order_by(t.ride.c.started_us.desc())
         .limit(4 * FAULTS_SHOWN)
     )
-    if bike_id is not None:
-        query = query.where(t.ride.c.bike_id + 0 == bike_id)
+    query = narrowed(query, whose)
     faults = [
         RideFault(row.id, row.started_us + round(event["t_s"] * 1e6), event["value"])
         for row in connection.execute(query)

@@ -83,6 +83,38 @@ bike = Table(
     key(),
     Column("name", Text, nullable=False),
     Column("created_us", BigInteger, nullable=False),
+    Column("model", Text),
+    Column("frame_number", Text),
+    Column("battery", Text),
+    # What its counter showed, and when.
+    Column("mileage_km", Float),
+    Column("mileage_us", BigInteger),
+    Column("lost_us", BigInteger),
+)
+
+# Whose a bike was, from when to when; to_us is null while it is. account_id: null once the account
+# was removed; the name stays.
+bike_owner = Table(
+    "bike_owner",
+    metadata,
+    key(),
+    Column("bike_id", KEY, ForeignKey("bike.id"), nullable=False, index=True),
+    Column("account_id", KEY, index=True),
+    Column("name", String(64), nullable=False),
+    Column("from_us", BigInteger, nullable=False),
+    Column("to_us", BigInteger),
+)
+
+# A code that makes its taker the bike's owner, once. owned_from_us: since when, null for then.
+pairing = Table(
+    "pairing",
+    metadata,
+    key(),
+    Column("bike_id", KEY, ForeignKey("bike.id"), nullable=False, index=True),
+    Column("code_sha256", String(64), nullable=False, unique=True),
+    Column("owned_from_us", BigInteger),
+    Column("created_us", BigInteger, nullable=False),
+    Column("expires_us", BigInteger, nullable=False),
 )
 
 # Which unit was on which bike, from when to when; to_us is null while it is on it.
@@ -207,6 +239,10 @@ upload = Table(
     Column("part_of", KEY, index=True),
     # Of a table that is not read before somebody says more: the hash of its header.
     Column("asks_sha256", String(64)),
+    # The rider who sent it; null for others, who send anybody's. answer: what a rider said of a
+    # table; of others it is kept for all its like.
+    Column("owner_id", KEY, index=True),
+    Column("answer", JSON(none_as_null=True)),
 )
 
 ride = Table(
@@ -243,8 +279,11 @@ ride = Table(
     Column("cut_short", Boolean),
     # Codes of doubts that somebody accepted.
     Column("accepted_doubts", JSON, nullable=False, server_default="[]"),
+    # The account whose ride it is: its bike's owner when it began, or the rider who sent it.
+    Column("owner_id", KEY),
     # A list goes by it, newest first; with the bike in it totals need no row of this wide table.
     Index(None, "started_us", "id", "bike_id"),
+    Index(None, "owner_id", "started_us", "id"),
 )
 
 ride_tag = Table(

@@ -46,6 +46,7 @@ SAMPLE_RIDE: dict[str, Any] = {
     "object_bytes": 4096,
     "damage": None,
     "same_ride_as": None,
+    "owner_id": None,
     "outdone": False,
     "tags": ["winter"],
     "place": {"name": "Dublin", "country": "IE", "zone": "Europe/Dublin", "is_loop": False},

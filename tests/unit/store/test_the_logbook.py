@@ -24,6 +24,7 @@ from backend.rebuild import rebuild_store
 from backend.rides.logbook.cards import RideCards, card_of
 from backend.rides.rows import RideColumns
 from backend.store import Sought, Store
+from backend.store.logbook.totals import Whose
 
 pytestmark = pytest.mark.slow
 
@@ -199,7 +200,7 @@ def test_records_are_the_rider_s_own_and_of_one_bike_where_asked(store: Store) -
     assert best["power_w_best_1200s"].value == pytest.approx(90.0)
     assert "ascent_m" not in best
     bike_id = store.rides.get(fast).bike_id
-    own = {best.kind: best.ride_id for best in store.logbook.home([], bike_id).records}
+    own = {best.kind: best.ride_id for best in store.logbook.home([], Whose(bike_id)).records}
     assert own == {"distance_km": fast, "speed_kmh_mean": fast}
     assert [bike.rides for bike in store.logbook.home([]).bikes] == [1]
 
