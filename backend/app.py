@@ -11,6 +11,7 @@ import sys
 from fastapi import FastAPI
 
 from backend import __version__
+from backend.bikes import api as bikes
 from backend.calibration import api as calibrations
 from backend.calibration.bike import api as bike_numbers
 from backend.core.person import Permission
@@ -34,15 +35,18 @@ from backend.tuning.library import api as library
 from backend.units import api as devices
 from backend.units import live
 from backend.web.app import Operations, WebSettings, create_app
-from backend.web.permissions import Anyone
+from backend.web.permissions import Anyone, Own
 
 P = Permission
 OPERATIONS: dict[Permission | Anyone, str] = {
-    Anyone.STRANGER: "get_not_built get_healthz get_readyz get_session sign_in make_first_person",
+    Anyone.STRANGER: "get_not_built get_healthz get_readyz get_session sign_in make_first_person "
+    "get_pairing join_by_pairing",
     Anyone.SIGNED_IN: "sign_out change_own_password give_ticket list_keys add_key revoke_key "
-    "get_description get_docs",
+    "take_pairing get_description get_docs",
     P.COMPUTE: "compute_surface compute_points compute_torque_surface compute_mode_curves "
     "lint_table why_steady evaluate_calibration read_fis list_scenarios",
+    P.SEE_REGISTER: "list_bikes get_bike",
+    P.CHANGE_REGISTER: "add_bike change_bike remove_bike give_rides pair_bike leave_bike",
     P.SEE_SERVER: "get_health get_store list_ports",
     P.BACK_UP: "get_backup",
     P.MANAGE_PEOPLE: "list_people add_person change_person remove_person",
@@ -75,6 +79,19 @@ OPERATIONS: dict[Permission | Anyone, str] = {
 }
 NEEDED = {one: needed for needed, operations in OPERATIONS.items() for one in operations.split()}
 
+# What those may who have only their own; everything else that is not for anybody is the workshop's.
+OWN_OPERATIONS = {
+    Own.ADDRESSED: "get_bike change_bike pair_bike leave_bike energy_of_ride effort_of_ride "
+    "pedalling_of_ride diagnosis_of_ride report_of_ride get_ride get_ride_series get_ride_track "
+    "get_ride_figure export_ride replay_ride ride_again why_of_ride cuts_of_ride ledger_of_ride "
+    "patch_ride delete_ride get_upload_offset append_upload get_upload delete_upload get_mapping "
+    "put_mapping",
+    Own.NARROWED: "list_bikes list_rides rider_home export_rides compare_rides "
+    "compare_ride_series compare_ride_crank tag_rides delete_rides sample_ride list_uploads "
+    "import_ride describe_uploads create_upload",
+}
+OWN = {one: kept for kept, operations in OWN_OPERATIONS.items() for one in operations.split()}
+
 
 # What the table calls a stranger's, by its path; a test compares them.
 STRANGERS = frozenset(
@@ -84,6 +101,8 @@ STRANGERS = frozenset(
         ("GET", "/api/v1/session"),
         ("POST", "/api/v1/sign-in"),
         ("POST", "/api/v1/first-person"),
+        ("GET", "/api/v1/pairings/{code}"),
+        ("POST", "/api/v1/pairings/{code}/account"),
     }
 )
 
@@ -93,6 +112,7 @@ OF_RIDES = (logbook, comparison, insight, rides, proposals)
 ROUTERS = [
     server.router,
     people_router,
+    bikes.router,
     calibrations.figures,
     comparison.of_units,
     *(part.router for part in (*OF_UNITS, law, library, *OF_RIDES, uploads, tables, live)),
@@ -106,8 +126,8 @@ def build_api(
 
     people: who may sign in; None where nobody is asked to.
     """
-    operations = Operations(ROUTERS, server.probes, NEEDED, STRANGERS)
-    return create_app(settings, operations, services, people)
+    operations = Operations(ROUTERS, server.probes, NEEDED, STRANGERS, OWN)
+    return create_app(settings, operations, services, people, getattr(services, "bikes", None))
 
 
 def main() -> None:

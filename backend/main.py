@@ -23,6 +23,8 @@ from fastapi import FastAPI
 
 from backend import __version__
 from backend.app import build_api
+from backend.bikes.records import BikeStore, PairingStore
+from backend.bikes.service import Bikes
 from backend.calibration.bike.service import BikeNumbers
 from backend.calibration.certified_torque import CertifiedTorque
 from backend.calibration.clock import JobDates
@@ -115,7 +117,6 @@ def open_services(
         recorder = Recorder(store.rides, memory.ride_context, unfinished=store.unfinished)
         closing.callback(recorder.close)
         uploads = make_uploads(settings, store, cards.make)
-        in_background("uploads", uploads.recover)
         # Units close first: their last rows still find the recorder.
         closing.callback(devices.close)
         collect = Collect(devices, uploads, settings.data / "collecting")
@@ -127,10 +128,10 @@ def open_services(
             devices.watch(watcher)
         closing.enter_context(upkeep(recorder, uploads, store, last_seen, devices, cards))
         open_units(settings, devices)
-        replay = RideReplay(Preview(), memory.ride_config)
         library, inspection = Library(LibraryStore(store.database)), Inspection(devices)
         proposals = Proposals(store, memory.ride_config, proofs)
         closing.callback(proposals.close)
+        people = PeopleService(store.database) if settings.needs_sign_in else None
         yield Services(
             store=StoreService(store, __version__),
             health=make_health(devices, recorder, store),
@@ -148,7 +149,7 @@ def open_services(
             library=library,
             compare=Compare(library, tuning),
             prove_limits=ProveLimits(proofs, devices, tuning, library),
-            rides=Rides(store, replay, devices.unit_at, recorder.running),
+            rides=make_rides(store, memory, devices, recorder),
             home=RiderHomeService(store),
             ride_again=RideAgain(store, memory.ride_config),
             proposals=proposals,
@@ -163,7 +164,8 @@ def open_services(
             tables=TableMapping(store, uploads),
             sample_ride=partial(sample_ride, store, uploads),
             collect=collect,
-            people=PeopleService(store.database) if settings.needs_sign_in else None,
+            bikes=make_bikes(store, people, units),
+            people=people,
         )
 
 
@@ -220,6 +222,17 @@ def make_calibrations(
     return open_calibrations(devices, CalibrationStore(store), tuning, __version__, limits)
 
 
+def make_bikes(store: Store, people: PeopleService | None, units: UnitStore) -> Bikes:
+    """The register; what it says of units is looked up anew where it changes."""
+    return Bikes(BikeStore(store.database), PairingStore(store.database), people, units.moved)
+
+
+def make_rides(store: Store, memory: UnitMemory, devices: Devices, recorder: Recorder) -> Rides:
+    """Rides, recorded and replayed by what their unit was set to."""
+    replay = RideReplay(Preview(), memory.ride_config)
+    return Rides(store, replay, devices.unit_at, recorder.running)
+
+
 def make_bike_numbers(store: Store, memory: UnitMemory, tuning: Tuning) -> BikeNumbers:
     """With what a ride's unit was configured as and certified for."""
     certified = CertifiedTorque(CalibrationStore(store), partial(all_through, memory.ride_config))
@@ -227,11 +240,16 @@ def make_bike_numbers(store: Store, memory: UnitMemory, tuning: Tuning) -> BikeN
 
 
 def make_uploads(settings: Settings, store: Store, judge: Callable[[Ride], None]) -> Uploads:
-    """What becomes of files: they are read in processes of their own, and their rides judged."""
+    """What becomes of files: they are read in processes of their own, and their rides judged.
+
+    What a server before did not read is read in the background.
+    """
     limit = UploadSettings(length_max=settings.upload_bytes_max)
     readers = Readers()
     quick = partial(readers.read, wall_s=QUICK_S)
-    return Uploads(store, limit, quick, readers.read, readers.stop, readers.unpack, judge)
+    uploads = Uploads(store, limit, quick, readers.read, readers.stop, readers.unpack, judge)
+    in_background("uploads", uploads.recover)
+    return uploads
 
 
 def check(settings: Settings) -> None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from backend.bikes.service import Bikes
     from backend.calibration.bike.service import BikeNumbers
     from backend.calibration.service import Calibrations
     from backend.imports.mapping import TableMapping
@@ -73,7 +74,8 @@ class Services:
     insight: Insight
     uploads: Uploads
     tables: TableMapping
-    sample_ride: Callable[[], int]
+    sample_ride: Callable[[int | None], int]
     collect: Collect
+    bikes: Bikes
     # None where nobody is asked to sign in.
     people: PeopleService | None

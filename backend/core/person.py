@@ -1,7 +1,6 @@
 """A person with an account, what a role permits, and who is behind a request.
 
-A rider has none of the bikes, rides and settings of others. Until bikes have owners everything is
-somebody else's to a rider, so the role holds what needs nobody's data.
+What a rider may is of their own bikes and rides; of others' a rider sees nothing.
 """
 
 from __future__ import annotations
@@ -28,6 +27,10 @@ class Permission(StrEnum):
     """Connect units, write what they are set to, try values, clear faults."""
     CALIBRATE = "calibrate"
     """Calibrate sensors and write what was found."""
+    SEE_REGISTER = "see_register"
+    """The bikes, whose they are, and what was done to them."""
+    CHANGE_REGISTER = "change_register"
+    """Add and describe bikes, and hand them over."""
     SEE_RIDES = "see_rides"
     """Rides, where they went, and the files they came from."""
     CHANGE_RIDES = "change_rides"
@@ -49,14 +52,13 @@ class Permission(StrEnum):
 
 
 P = Permission
-RIDER = frozenset({P.COMPUTE})
+RIDER = frozenset(
+    {P.COMPUTE, P.SEE_REGISTER, P.CHANGE_REGISTER, P.SEE_RIDES, P.CHANGE_RIDES, P.UPLOAD}
+)
 DEALER = RIDER | {
     P.SEE_BIKES,
     P.CHANGE_BIKES,
     P.CALIBRATE,
-    P.SEE_RIDES,
-    P.CHANGE_RIDES,
-    P.UPLOAD,
     P.SEE_LIBRARY,
     P.CHANGE_LIBRARY,
     P.SEE_SERVER,
@@ -101,6 +103,11 @@ class Caller:
     by_cookie: bool = False
     session_id: int | None = None
     key_id: int | None = None
+
+    @property
+    def owner_id(self) -> int | None:
+        """Whose bikes and rides alone are the caller's affair; None for everybody's."""
+        return self.person.id if self.person.role == "rider" else None
 
 
 def folded(name: str) -> str:

@@ -28,6 +28,7 @@ from backend.imports.models import Upload, UploadList
 from backend.imports.service import Uploads
 from backend.rides.models import Ride
 from backend.rides.service import Rides
+from backend.web.permissions import OwnerId
 from backend.web.problem import problem_response, refusals
 from backend.web.services import provided
 
@@ -71,10 +72,12 @@ FileName = Annotated[str, Query(min_length=1, max_length=255, description="The f
 
 
 @router.post("/rides/import", operation_id="import_ride", response_model=Upload)
-async def import_ride(name: FileName, request: Request, uploads: TheUploads) -> Any:
+async def import_ride(
+    name: FileName, request: Request, uploads: TheUploads, owner_id: OwnerId
+) -> Any:
     """A whole file as the request's body; answers when it has become a ride or been refused."""
     length = _declared_length(request)
-    upload = await _begin(uploads, name, length)
+    upload = await _begin(uploads, owner_id, name, length)
     with suppress(BadFile):
         await _append_stream(uploads, upload.id, 0, request.stream())
     return await run_in_threadpool(uploads.get, upload.id)
@@ -82,10 +85,12 @@ async def import_ride(name: FileName, request: Request, uploads: TheUploads) -> 
 
 @router.post("/rides/sample", operation_id="sample_ride", response_model=Ride)
 def make_sample_ride(
-    rides: TheRides, make: Annotated[Callable[[], int], provided("sample_ride")]
+    rides: TheRides,
+    owner_id: OwnerId,
+    make: Annotated[Callable[[int | None], int], provided("sample_ride")],
 ) -> Any:
     """A sample ride, simulated and named so; the existing one, if there is one."""
-    return rides.get(make())
+    return rides.get(make(owner_id))
 
 
 @router.options("/uploads", operation_id="describe_uploads", status_code=204)
@@ -104,6 +109,7 @@ async def describe_uploads(request: Request) -> Response:
 async def create_upload(
     request: Request,
     uploads: TheUploads,
+    owner_id: OwnerId,
     upload_length: ByteCount,
     upload_metadata: Annotated[str, Header(max_length=4000)] = "",
     upload_checksum: UploadChecksum = None,
@@ -135,7 +141,7 @@ async def create_upload(
         if len(chunk) > upload_length:
             return _too_long(upload_length)
         chunks = _one(chunk)
-    upload = await _begin(uploads, name[:255], upload_length, sha256)
+    upload = await _begin(uploads, owner_id, name[:255], upload_length, sha256)
     offset = 0
     if with_part:
         try:
@@ -203,6 +209,7 @@ async def append_upload(
 @router.get("/uploads", operation_id="list_uploads", response_model=UploadList)
 def list_uploads(
     uploads: TheUploads,
+    owner_id: OwnerId,
     limit: Annotated[int, Query(ge=1, le=500)] = 50,
     cursor: Annotated[str | None, Query(max_length=64)] = None,
     part_of: Annotated[str | None, Query(max_length=64)] = None,
@@ -213,7 +220,7 @@ def list_uploads(
     Those within a container are listed with `part_of`, its upload. With `sha256` only files of
     these bytes: whether one is here already is known before it is sent.
     """
-    return uploads.list(limit, cursor, part_of, sha256)
+    return uploads.list(limit, cursor, part_of, sha256, owner_id)
 
 
 @router.get("/uploads/{upload_id}", operation_id="get_upload", response_model=Upload)
@@ -342,9 +349,11 @@ def _expiry(upload: Any, received: int | None = None) -> dict[str, str]:
     return {"upload_expires": formatdate(upload.expires_us // 1_000_000, usegmt=True)}
 
 
-async def _begin(uploads: Uploads, name: str, length: int, sha256: str | None = None) -> Any:
+async def _begin(
+    uploads: Uploads, owner_id: int | None, name: str, length: int, sha256: str | None = None
+) -> Any:
     """A new upload; a file without bytes has arrived with it."""
-    upload = await run_in_threadpool(uploads.begin, name, length, sha256)
+    upload = await run_in_threadpool(uploads.begin, name, length, sha256, owner_id=owner_id)
     if length == 0:
         await _add(uploads, upload.id, 0, b"")
     return upload

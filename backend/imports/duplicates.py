@@ -82,17 +82,22 @@ class DuplicateMatch:
 
 
 def find_duplicate(
-    rides: RideStore, imported: ImportedRide, is_complete: bool, upload_id: str | None
+    rides: RideStore,
+    imported: ImportedRide,
+    is_complete: bool,
+    upload_id: str | None,
+    owner_id: int | None = None,
 ) -> DuplicateMatch | None:
     """The ride that a file's ride is, or is beside of; None for a new one.
 
     is_complete: nothing of it is missing in its file. upload_id: rides of this upload do not count.
+    owner_id: a rider, who learns of no ride but their own.
     """
     if not imported.start_known:
         return None
     start_us = imported.started_us
     stop_us = start_us + int(imported.rows.times_us[-1])
-    sought = Sought(from_us=start_us - LONGEST_US, to_us=stop_us + 1)
+    sought = Sought(from_us=start_us - LONGEST_US, to_us=stop_us + 1, owner_id=owner_id)
     names = (LATITUDE, LONGITUDE, *TOLERANCES)
     theirs: BySecond | None = None
     matches: list[DuplicateMatch] = []
@@ -274,11 +279,16 @@ RIDES_AT_ONCE = 200
 PAGES_MAX = 25
 
 
-def same_rides(rides: RideStore, imported: ImportedRide, upload_id: str | None) -> list[Ride]:
+def same_rides(
+    rides: RideStore,
+    imported: ImportedRide,
+    upload_id: str | None,
+    owner_id: int | None = None,
+) -> list[Ride]:
     """The rides that share unit time with `imported`, in order of time; empty when it is new.
 
     A link that was lost for long makes several rides of one log. upload_id: rides of this upload do
-    not count.
+    not count. owner_id: a rider, whose own alone do.
     """
     context = imported.context
     if context.unit_key is None or context.boot_id is None or context.unit_t0_us is None:
@@ -288,18 +298,21 @@ def same_rides(rides: RideStore, imported: ImportedRide, upload_id: str | None) 
     enough_us = min(SHARED_US, (stop_us - start_us) / 2)
     matching = [
         ride
-        for ride in rides_of_boot(rides, context.unit_key, context.boot_id)
+        for ride in rides_of_boot(rides, context.unit_key, context.boot_id, owner_id)
         if (ride.upload_id is None or ride.upload_id != upload_id)
         and overlap_us((start_us, stop_us), ride_span_us(ride)) >= max(enough_us, 1.0)
     ]
     return sorted(matching, key=ride_span_us)
 
 
-def rides_of_boot(rides: RideStore, key: str, boot_id: int) -> Iterator[Ride]:
+def rides_of_boot(
+    rides: RideStore, key: str, boot_id: int, owner_id: int | None = None
+) -> Iterator[Ride]:
     """Rides of one start of a unit, the newest first."""
     cursor: str | None = None
     for _ in range(PAGES_MAX):
-        page = rides.list(Sought(device=key), limit=RIDES_AT_ONCE, cursor=cursor)
+        sought = Sought(device=key, owner_id=owner_id)
+        page = rides.list(sought, limit=RIDES_AT_ONCE, cursor=cursor)
         yield from (ride for ride in page.items if ride.context.boot_id == boot_id)
         cursor = page.next
         if cursor is None:

@@ -44,13 +44,14 @@ class TableMapping:
         """
         upload = self._uploads.answerable(upload_id)
         question = self._uploads.question(upload)
-        stored = self._answers.get(question.header_sha256)
+        header, owner_id = question.header_sha256, upload.owner_id
+        stored = self._uploads.answer_for(upload, header)
         if stored is not None:
             # What was said of one column can open a question about another.
             with suppress(Conflict):
-                question = self._uploads.question(upload, stored.answer)
-        answer = answer_to_json(stored.answer) if stored else None
-        read = set(self._store.uploads.read_by(question.header_sha256)) - {upload.id}
+                question = self._uploads.question(upload, stored)
+        answer = answer_to_json(stored) if stored else None
+        read = set(self._store.uploads.read_by(header, owner_id)) - {upload.id}
         known = {"offered_channels": OFFERED, "answer": answer, "files_read": len(read)}
         return asdict(question) | known
 
@@ -63,7 +64,7 @@ class TableMapping:
         may_change_rides: bool = True,
     ) -> Upload:
         """Keep an answer and read the file by it; what became of it. Rides that were made of it
-        become what it says now.
+        become what it says now. Of a file that a rider sent the answer is that rider's alone.
 
         All others that wait for the same are read behind it, and each tells for itself what became
         of it; then the containers they are within are judged anew. values: the members of
@@ -74,15 +75,21 @@ class TableMapping:
         """
         answer = answer_from_json(values) or TableAnswer()
         upload = self._uploads.answerable(upload_id)
+        if upload.owner_id != self._uploads.get(upload_id).owner_id:
+            raise NotAllowed("The workshop sent this file before: it says what its columns are.")
         if (upload.ride_ids or read_again) and not may_change_rides:
             raise NotAllowed("Rides are made of this file already: this changes them.")
         # A file that is no ride yet can wait for what its answer opens.
         question = self._uploads.question(upload, answer if upload.ride_ids else None)
         check(question, answer)
-        self._answers.save(question, answer)
-        others = [*self._store.uploads.asking(NEEDS_MAPPING, question.header_sha256)]
+        header, owner_id = question.header_sha256, upload.owner_id
+        if owner_id is None:
+            self._answers.save(question, answer)
+        else:
+            self._store.uploads.keep_answer(upload.id, header, answer_to_json(answer))
+        others = [*self._store.uploads.asking(NEEDS_MAPPING, header, owner_id)]
         if read_again:
-            others += self._store.uploads.read_by(question.header_sha256)
+            others += self._store.uploads.read_by(header, owner_id)
         upload_id = upload.id
         containers = {one: self._uploads.get(one).part_of for one in (upload_id, *others)}
         read = {one: self._uploads.read_anew(one) for one in containers}

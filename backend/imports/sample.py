@@ -12,9 +12,12 @@ NAME = "Sample ride, simulated"
 NOTES = "Simulated by Spindle for exploring: nobody rode it."
 
 
-def sample_ride(store: Store, uploads: Uploads) -> int:
-    """Id of the sample ride: made where it is not here, else as it is. Raises StoreError."""
-    upload = uploads.receive_file(NAME + BLOCKS_SUFFIX, sample_log())
+def sample_ride(store: Store, uploads: Uploads, owner_id: int | None = None) -> int:
+    """Id of the sample ride, if need be of this rider: made where it is not here, else as it is.
+
+    Raises StoreError.
+    """
+    upload = uploads.receive_file(NAME + BLOCKS_SUFFIX, sample_log(), owner_id)
     if upload.duplicate_of is not None:
         return upload.duplicate_of
     if not upload.ride_ids:

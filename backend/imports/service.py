@@ -11,12 +11,12 @@ from __future__ import annotations
 
 import io
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 from backend.core.ride import Ride, iso_utc
 from backend.errors import BadFile, Conflict, InvalidRequest, SpindleError
@@ -31,7 +31,7 @@ from backend.formats import (
     refused_by_head,
 )
 from backend.formats.outcome import COMPLETE, PARTIAL, REJECTED, TOO_SLOW
-from backend.formats.questions import TableAnswer, TableQuestion
+from backend.formats.questions import TableAnswer, TableQuestion, answer_from_json
 from backend.imports.container import Container, Unpacker
 from backend.imports.duplicates import Kind, find_duplicate, same_rides
 from backend.imports.gap_filling import fill
@@ -110,18 +110,26 @@ class Uploads:
         """Stop reading. What was not concluded stays queued and is read at the next start."""
         self._lanes.close(self._stop_readers)
 
-    def create(self, name: str, length: int, sha256: str | None = None) -> Upload:
+    def create(
+        self, name: str, length: int, sha256: str | None = None, owner_id: int | None = None
+    ) -> Upload:
         """`begin`; a file without bytes has arrived with it and is concluded."""
-        upload = self.begin(name, length, sha256)
+        upload = self.begin(name, length, sha256, owner_id=owner_id)
         return self._submit(upload.id).result() if length == 0 else upload
 
     def begin(
-        self, name: str, length: int, sha256: str | None = None, part_of: str | None = None
+        self,
+        name: str,
+        length: int,
+        sha256: str | None = None,
+        part_of: str | None = None,
+        owner_id: int | None = None,
     ) -> Upload:
         """Begin an upload of `length` bytes. Raises InvalidRequest when it is too large.
 
         sha256: what the whole file will hash to, if the client knows; it is checked at the end.
-        part_of: the container it is within.
+        part_of: the container it is within. owner_id: the rider who sends it, whose rides it makes;
+        None for others.
         """
         if not 0 <= length <= self._settings.length_max:
             raise InvalidRequest(
@@ -130,7 +138,7 @@ class Uploads:
             )
         file_name = name.replace("\0", "")[:NAME_LENGTH_MAX] or "upload"
         return self._store.uploads.create(
-            file_name, length, sha256, self._settings.expires_s, part_of
+            file_name, length, sha256, self._settings.expires_s, part_of, owner_id
         )
 
     def append(self, upload_id: str, offset: int, data: bytes) -> int:
@@ -170,10 +178,10 @@ class Uploads:
             self._conclude(upload.id, REJECTED, refused.code, refused.detail, 0.0)
             raise BadFile(refused.detail or "", code=refused.code)
 
-    def receive_file(self, name: str, source: bytes | Path) -> Upload:
+    def receive_file(self, name: str, source: bytes | Path, owner_id: int | None = None) -> Upload:
         """A whole file at once -> what became of it."""
         length = len(source) if isinstance(source, bytes) else source.stat().st_size
-        upload = self.create(name, length)
+        upload = self.create(name, length, owner_id=owner_id)
         offset = 0
         with (
             suppress(BadFile),
@@ -193,13 +201,14 @@ class Uploads:
         before: str | None = None,
         part_of: str | None = None,
         sha256: str | None = None,
+        owner_id: int | None = None,
     ) -> dict[str, object]:
         """One page, the latest first: {items, next}. before: `next` of the page before.
 
         part_of: of the files within this upload, else of those that are in none. sha256: of these
-        bytes only.
+        bytes only. owner_id: sent by this rider only.
         """
-        uploads = self._store.uploads.list(limit + 1, before, part_of, sha256)
+        uploads = self._store.uploads.list(limit + 1, before, part_of, sha256, owner_id)
         more = len(uploads) > limit
         return {"items": uploads[:limit], "next": uploads[limit - 1].id if more else None}
 
@@ -209,7 +218,7 @@ class Uploads:
         Raises NotFound.
         """
         upload = self.get(upload_id)
-        return self._store.uploads.first_with(upload.sha256 or "") or upload
+        return self._store.uploads.first_with(upload.sha256 or "", upload.owner_id) or upload
 
     def question(self, upload: Upload, answer: TableAnswer | None = None) -> TableQuestion:
         """What its owner can say of a table, or must before it is read; with an answer, what that
@@ -229,6 +238,17 @@ class Uploads:
             if problem is not None:
                 raise Conflict(problem, code=LEFT_AS_READ)
         return question
+
+    def answer_for(self, upload: Upload, header_sha256: str) -> TableAnswer | None:
+        """What is known of an upload's table: what the rider said who sent it, else what is known
+        of all with this header."""
+        said: Mapping[str, Any] | None = None
+        if upload.owner_id is not None:
+            said = self._store.uploads.answer_of(upload.owner_id, header_sha256)
+        if said is not None:
+            return answer_from_json(said)
+        stored = self._answers.get(header_sha256)
+        return None if stored is None else stored.answer
 
     def read_anew(self, upload_id: str) -> Future[Upload]:
         """Have a file read again; the promise of what becomes of it."""
@@ -295,7 +315,7 @@ class Uploads:
         """Make rides of what was read, or fill, replace or leave those that are here; say so."""
         result = ImportResult()
         for imported in outcome.rides:
-            twins = same_rides(self._store.rides, imported, upload.id)
+            twins = same_rides(self._store.rides, imported, upload.id, upload.owner_id)
             if live := next((ride for ride in twins if ride.state == "live"), None):
                 return self._wait_for(upload, live)
             if twins:
@@ -358,7 +378,7 @@ class Uploads:
     ) -> None:
         """A ride that no unit's clock tells from others: whether its recording is here already."""
         duplicate = find_duplicate(
-            self._store.rides, imported, outcome.state == COMPLETE, upload.id
+            self._store.rides, imported, outcome.state == COMPLETE, upload.id, upload.owner_id
         )
         if duplicate is None:
             result.fresh.append((imported, None))
@@ -409,16 +429,16 @@ class Uploads:
         read = self._slow_reader if lane == SLOW else self._reader
         outcome = read(path, upload.name)
         if outcome.question is not None:
-            stored_answer = self._answers.get(outcome.question.header_sha256)
-            if stored_answer is not None:
-                outcome = read(path, upload.name, table_answer=stored_answer.answer)
+            answer = self.answer_for(upload, outcome.question.header_sha256)
+            if answer is not None:
+                outcome = read(path, upload.name, table_answer=answer)
         if outcome.code == TOO_SLOW and lane != SLOW:
             raise GoesElsewhere(SLOW)
         return outcome
 
     def _twin(self, upload: Upload) -> Upload | None:
         """Conclude an upload of bytes that are here already, naming the ride they became."""
-        first = self._store.uploads.first_with(upload.sha256 or "")
+        first = self._store.uploads.first_with(upload.sha256 or "", upload.owner_id)
         if first is None or first.id == upload.id:
             return None
         ride = self._store.rides.get(first.ride_ids[0])

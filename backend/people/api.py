@@ -189,10 +189,10 @@ def change_person(person_id: Id, body: PersonChange, people: PeopleOf, caller: A
 
     What was done under the name before keeps that name.
     """
-    before = people.accounts.get(person_id)
-    require_within(caller, before.role, body.role or before.role)
     if body.password is not None:
         require_session(caller)
+    before = people.accounts.get(person_id)
+    require_within(caller, before.role, body.role or before.role)
     return people.accounts.change(person_id, body)
 
 

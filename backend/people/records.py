@@ -9,8 +9,8 @@ times are Unix microseconds.
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Mapping
-from typing import Any
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, TypeAlias, TypeVar
 
 from sqlalchemy import ColumnElement, Connection, Row, Select, delete, func, insert, select, update
 
@@ -33,6 +33,10 @@ AGE_MAX_US = 30 * 24 * HOUR_US
 SESSIONS_MAX = 50
 # A use is noted so seldom that a page that asks twice a second does not keep the disk busy.
 USE_RECORDED_EVERY_US = 60_000_000
+
+
+Made = TypeVar("Made")
+WithPerson: TypeAlias = Callable[[Connection, Person], Made]
 
 
 class AccountStore:
@@ -62,24 +66,22 @@ class AccountStore:
 
         Raises Conflict `name_taken`, `people_full`, `not_the_first`; StoreError.
         """
-        values = {
-            "name": name,
-            "folded": folded(name),
-            "role": role,
-            "enabled": True,
-            "password": password,
-            "created_us": now_us(),
-        }
 
         def work(connection: Connection) -> Person:
             if only_first and admins(connection):
                 raise Conflict("There is an administrator already: sign in.", "not_the_first")
-            count = connection.execute(select(func.count()).select_from(t.account)).scalar_one()
-            if count >= ACCOUNTS_MAX:
-                raise Conflict(f"There are {ACCOUNTS_MAX} accounts, and no more.", "people_full")
-            require_free(connection, name)
-            made = insert(t.account).values(values).returning(t.account)
-            return person_of(connection.execute(made).one())
+            return added(connection, name, role, password)
+
+        return self._database.write(work)
+
+    def add_with(
+        self, name: str, role: RoleName, password: str, then: WithPerson[Made]
+    ) -> tuple[Person, Made]:
+        """As `add`, and something made with it in the same transaction; both or neither."""
+
+        def work(connection: Connection) -> tuple[Person, Made]:
+            person = added(connection, name, role, password)
+            return person, then(connection, person)
 
         return self._database.write(work)
 
@@ -113,17 +115,45 @@ class AccountStore:
         return self._database.write(work)
 
     def remove(self, person_id: int) -> None:
-        """Remove an account, its sessions and keys. Raises NotFound, Conflict `last_admin`."""
+        """Remove an account, its sessions and keys; its bikes and rides are nobody's then.
+
+        Raises NotFound, Conflict `last_admin`.
+        """
 
         def work(connection: Connection) -> None:
             account_of(connection, person_id)
             had_admin = admins(connection) > 0
             for table in (t.session, t.api_key):
                 connection.execute(delete(table).where(table.c.account_id == person_id))
+            owner = t.bike_owner.c.account_id == person_id
+            still = owner & t.bike_owner.c.to_us.is_(None)
+            connection.execute(update(t.bike_owner).where(still).values(to_us=now_us()))
+            connection.execute(update(t.bike_owner).where(owner).values(account_id=None))
+            for table in (t.ride, t.upload):
+                own = table.c.owner_id == person_id
+                connection.execute(update(table).where(own).values(owner_id=None))
             connection.execute(delete(t.account).where(t.account.c.id == person_id))
             require_admin(connection, had_admin)
 
         self._database.write(work)
+
+
+def added(connection: Connection, name: str, role: RoleName, password: str) -> Person:
+    """A new account. Raises Conflict `name_taken`, `people_full`."""
+    count = connection.execute(select(func.count()).select_from(t.account)).scalar_one()
+    if count >= ACCOUNTS_MAX:
+        raise Conflict(f"There are {ACCOUNTS_MAX} accounts, and no more.", "people_full")
+    require_free(connection, name)
+    values = {
+        "name": name,
+        "folded": folded(name),
+        "role": role,
+        "enabled": True,
+        "password": password,
+        "created_us": now_us(),
+    }
+    made = insert(t.account).values(values).returning(t.account)
+    return person_of(connection.execute(made).one())
 
 
 def account_of(connection: Connection, person_id: int) -> Person:

@@ -14,7 +14,7 @@ from backend.core.author import tidy_author
 from backend.core.person import ROLES, Caller, Permission, Person, RoleName, folded
 from backend.errors import NotAllowed
 from backend.people.passwords import Passwords, field_refusal, require_good
-from backend.people.records import AccountStore, KeyStore, SessionStore
+from backend.people.records import AccountStore, KeyStore, Made, SessionStore, WithPerson
 from backend.people.sign_in import SignIn
 from backend.people.tokens import KEY_FORM, Tickets, is_secret_of, new_key, new_token, token_sha256
 from backend.people.types import NAME_MAX, ApiKey, PersonChange
@@ -41,6 +41,14 @@ class Accounts:
         name = good_name(name)
         require_good(password, name)
         return self._accounts.add(name, role, self._passwords.hashed(password))
+
+    def add_rider(self, name: str, password: str, then: WithPerson[Made]) -> tuple[Person, Made]:
+        """A new account of a rider, and what is made with it in the same transaction; both or
+        neither. Raises as `add`, and as `then`.
+        """
+        name = good_name(name)
+        require_good(password, name)
+        return self._accounts.add_with(name, "rider", self._passwords.hashed(password), then)
 
     def get(self, person_id: int) -> Person:
         """One account. Raises NotFound, StoreError."""

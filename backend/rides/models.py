@@ -54,6 +54,10 @@ class Ride(Answer):
     )
     unit_key: str | None = Field(description="The unit it was made with; null where nobody knows.")
     bike_id: int | None = Field(description="The bike that unit was on; null where nobody knows.")
+    owner_id: int | None = Field(
+        description="The account whose ride it is: its bike's owner when it began, or who sent the "
+        "file, if that is a rider. Null for nobody's."
+    )
     device: RideDevice
     gaps: list[Gap]
     filled: list[Filled]

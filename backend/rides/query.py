@@ -12,6 +12,7 @@ from fastapi.responses import StreamingResponse
 from pydantic import BeforeValidator
 
 from backend.rides.files import Export
+from backend.web.permissions import OwnerId
 
 # What the database can hold.
 RideId = Annotated[int, Path(ge=1, le=2**63 - 1)]
@@ -33,10 +34,11 @@ Blur = Annotated[
 
 
 class RideKind:
-    """Which rides a list shows; absent means whatever."""
+    """Which rides a list shows; absent means whatever the caller may see."""
 
     def __init__(
         self,
+        owner_id: OwnerId,
         bike: Annotated[int | None, Query(ge=1, le=2**63 - 1)] = None,
         longer_km: Annotated[
             float | None, Query(ge=0.0, le=1e6, description="At least so far.")
@@ -50,6 +52,7 @@ class RideKind:
         ] = None,
     ) -> None:
         self._filters: dict[str, object] = {
+            "owner_id": owner_id,
             "bike_id": bike,
             "longer_km": longer_km,
             "with_motor": motor,

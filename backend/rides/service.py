@@ -87,6 +87,10 @@ class Rides:
         """Change what people wrote about a ride. Raises NotFound, InvalidRequest."""
         return self._as_json(self._store.rides.patch(ride_id, name, notes, tags, doubts_accepted))
 
+    def require_own(self, ride_ids: Sequence[int], owner_id: int | None) -> None:
+        """Raises NotFound for a ride that is not this account's; None has all."""
+        self._store.logbook.require_own(ride_ids, owner_id)
+
     def delete(self, ride_id: int) -> None:
         """Delete a ride; with the last ride of an original file this goes too, on the disk as well.
 
@@ -95,9 +99,10 @@ class Rides:
         with self._store.deciding:
             self._store.rides.delete(ride_id)
 
-    def delete_all(self, ride_ids: Sequence[int]) -> None:
-        """Delete rides in order; those that are gone are passed over. Raises Conflict."""
-        for ride_id in ride_ids:
+    def delete_all(self, ride_ids: Sequence[int], owner_id: int | None = None) -> None:
+        """Delete rides in order; those that are gone, or are not this account's, are passed over.
+        Raises Conflict."""
+        for ride_id in self._store.logbook.own(ride_ids, owner_id):
             with suppress(NotFound):
                 self.delete(ride_id)
 
@@ -147,6 +152,7 @@ class Rides:
         **what: Any,
     ) -> Iterator[bytes]:
         """These rides as a ZIP, or every finished one as of `sought`. Raises NotFound."""
+        self._store.logbook.require_own(ride_ids, what.get("owner_id"))
         chosen = list(dict.fromkeys(ride_ids)) or self._store.logbook.ids(self.sought(**what))
         for ride_id in ride_ids:
             self._store.rides.get(ride_id)

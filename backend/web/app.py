@@ -15,7 +15,7 @@ from backend.core.person import Permission
 from backend.web import api_docs, pages, problem
 from backend.web.authentication import Authenticator, AuthMiddleware
 from backend.web.pages import RootPath
-from backend.web.permissions import Anyone, require_permission
+from backend.web.permissions import Anyone, Own, Ownership, require_permission
 from backend.web.problem import Problem, refusals, refusals_only
 from backend.web.safety import AllowedHosts, BodyBound, SameOriginOnly, SecurityHeaders
 from backend.web.sockets import OpenSockets
@@ -54,13 +54,15 @@ class Operations:
     """What an application does.
 
     routers: below `PREFIX`, in this order. probes: beside it, for machines. needed: the permission
-    of each operation. strangers: method and path of what needs no account.
+    of each operation. strangers: method and path of what needs no account. own: what those may
+    who have only their own.
     """
 
     routers: Sequence[APIRouter]
     probes: APIRouter
     needed: Mapping[str, Permission | Anyone]
     strangers: frozenset[tuple[str, str]]
+    own: Mapping[str, Own] = field(default_factory=dict)
 
 
 def create_app(
@@ -68,10 +70,11 @@ def create_app(
     operations: Operations,
     services: object,
     authenticator: Authenticator | None,
+    ownership: Ownership | None = None,
 ) -> FastAPI:
     """The application over what its routes call; with None it can only describe itself.
 
-    authenticator: None where nobody is asked to sign in.
+    authenticator: None where nobody is asked to sign in. ownership: knows what is whose.
     """
     app = FastAPI(
         title="Spindle",
@@ -86,6 +89,8 @@ def create_app(
     app.state.services = services
     app.state.authenticator = authenticator
     app.state.needed = operations.needed
+    app.state.own = operations.own
+    app.state.ownership = ownership
     app.state.upload_bytes_max = settings.upload_bytes_max
     app.state.author = settings.author
     app.state.sockets = OpenSockets()

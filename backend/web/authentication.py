@@ -10,6 +10,7 @@ a stranger needs. Which of the rest a caller may request, `permissions` says.
 
 from __future__ import annotations
 
+import re
 from typing import Annotated, Protocol
 from urllib.parse import unquote
 
@@ -45,7 +46,7 @@ class Authenticator(Protocol):
 class AuthMiddleware:
     """Puts the caller into the scope, and refuses with 401 who has none and needs one.
 
-    strangers: method and path of what needs no account.
+    strangers: method and path of what needs no account, `{code}` in it for one piece of a path.
     """
 
     def __init__(
@@ -53,7 +54,8 @@ class AuthMiddleware:
     ) -> None:
         self.app = app
         self.authenticator = authenticator
-        self.strangers = strangers
+        forms = (f"{method} {re.sub('{[a-z]+}', '[^/]+', path)}" for method, path in strangers)
+        self._strangers = re.compile("|".join(sorted(forms)))
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] not in ("http", "websocket") or is_page(scope["path"]):
@@ -77,7 +79,7 @@ class AuthMiddleware:
         """Why a request goes no further; None if it does."""
         if caller is not None:
             return refusal_of_caller(scope, caller)
-        if (scope.get("method", "GET"), scope["path"]) in self.strangers:
+        if self._strangers.fullmatch(f"{scope.get('method', 'GET')} {scope['path']}"):
             return None
         with_key = "authorization" in HTTPConnection(scope).headers
         return spindle_problem(None, NotSignedIn(BAD_KEY if with_key else SIGN_IN_FIRST))

@@ -1,17 +1,22 @@
 """Whether who sends a request may have what it is for.
 
 `app.OPERATIONS` says which permission each operation needs. An operation that is not in it is
-refused, to everybody and on every server.
+refused, to everybody and on every server. Whoever has only their own gets from an operation of
+`app.OWN` what is theirs, and no other operation on data.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from enum import StrEnum
+from typing import Annotated, Protocol
 
+from fastapi import Depends
+from fastapi.concurrency import run_in_threadpool
 from fastapi.requests import HTTPConnection
 
-from backend.core.person import Caller
-from backend.errors import NotAllowed, NotSignedIn
+from backend.core.person import Caller, Permission
+from backend.errors import NotAllowed, NotFound, NotSignedIn
 
 SIGN_IN_FIRST = (
     "This server asks who you are: sign in at /sign-in, or send a key as `Authorization: Bearer "
@@ -24,6 +29,22 @@ class Anyone(StrEnum):
 
     STRANGER = "stranger"
     SIGNED_IN = "signed_in"
+
+
+class Own(StrEnum):
+    """How an operation keeps to what is the caller's own.
+
+    ADDRESSED: what its address names has to be theirs. NARROWED: its route asks `OwnerId`.
+    """
+
+    ADDRESSED = "addressed"
+    NARROWED = "narrowed"
+
+
+class Ownership(Protocol):
+    """Who knows what is whose."""
+
+    def is_own(self, owner_id: int, kind: str, name: str) -> bool: ...
 
 
 def operation_of(connection: HTTPConnection) -> str:
@@ -43,8 +64,17 @@ def address_of(connection: HTTPConnection) -> str:
     return connection.client.host if connection.client else ""
 
 
+def owner_of(connection: HTTPConnection) -> int | None:
+    """Whose bikes and rides alone an answer may be of; None for everybody's."""
+    caller = caller_of(connection)
+    return None if caller is None else caller.owner_id
+
+
+OwnerId = Annotated[int | None, Depends(owner_of)]
+
+
 async def require_permission(connection: HTTPConnection) -> None:
-    """A dependency of every route; without waiting, so that no request takes a thread for it.
+    """A dependency of every route; it waits only for what is whose.
 
     Raises NotSignedIn and NotAllowed where accounts are required, NotAllowed everywhere for what
     the table does not have.
@@ -60,3 +90,23 @@ async def require_permission(connection: HTTPConnection) -> None:
         raise NotSignedIn(SIGN_IN_FIRST)
     if needed is not Anyone.SIGNED_IN and needed not in caller.permissions:
         raise NotAllowed(f"This needs the permission `{needed}`, which you do not have.")
+    if caller.owner_id is not None and needed not in (Anyone.SIGNED_IN, Permission.COMPUTE):
+        await require_own(connection, operation, caller.owner_id)
+
+
+async def require_own(connection: HTTPConnection, operation: str, owner_id: int) -> None:
+    """Raises NotAllowed for an operation that is not for who has only their own; NotFound for what
+    is not theirs, as if it were not there."""
+    kept: Own | None = connection.app.state.own.get(operation)
+    if kept is None:
+        raise NotAllowed("This is for the workshop.")
+    if kept is Own.NARROWED:
+        return
+    ownership: Ownership | None = connection.app.state.ownership
+    names: Mapping[str, str] = connection.path_params
+    for kind, name in names.items():
+        own = ownership is not None and await run_in_threadpool(
+            ownership.is_own, owner_id, kind, name
+        )
+        if not own:
+            raise NotFound(f"There is no {kind.removesuffix('_id')} {name}.")

@@ -12,23 +12,28 @@ from backend.rides.comparison.since_change import RidesSinceChange, SinceChange
 from backend.rides.query import Channels
 from backend.rides.questions import Insight
 from backend.rides.rows import Window
+from backend.rides.service import Rides
 from backend.units.precondition import FOR_ONE_UNIT
+from backend.web.permissions import OwnerId
 from backend.web.problem import DAMAGED, refusals
 from backend.web.responses import json_response
 from backend.web.services import provided
 
 router = APIRouter(prefix="/rides/compare", tags=["rides"], responses={**refusals(404), **DAMAGED})
 TheInsight = Annotated[Insight, provided("insight")]
+TheRides = Annotated[Rides, provided("rides")]
 
 RideNumber = Annotated[int, Query(ge=1, le=2**63 - 1)]
 Second = Annotated[float | None, Query(ge=0.0, le=1e7, description="Since that ride's start.")]
 
 
 class Pair:
-    """Which two windows; absent ends are the ride's."""
+    """Which two windows of rides that the caller may see; absent ends are the ride's."""
 
     def __init__(
         self,
+        rides: TheRides,
+        owner_id: OwnerId,
         a: RideNumber,
         b: RideNumber,
         a_from_s: Second = None,
@@ -36,6 +41,7 @@ class Pair:
         b_from_s: Second = None,
         b_to_s: Second = None,
     ) -> None:
+        rides.require_own((a, b), owner_id)
         self.a = Window(a, a_from_s, a_to_s)
         self.b = Window(b, b_from_s, b_to_s)
 

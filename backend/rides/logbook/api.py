@@ -11,6 +11,7 @@ from backend.rides.logbook.home import RiderHomeService
 from backend.rides.logbook.models import RiderHome, RidesGone, RideTags
 from backend.rides.query import Blur, ExportFormat, RideKind
 from backend.rides.service import Rides
+from backend.web.permissions import OwnerId
 from backend.web.problem import refusals
 from backend.web.services import provided
 
@@ -22,6 +23,7 @@ TheRides = Annotated[Rides, provided("rides")]
 @router.get("/home", operation_id="rider_home", response_model=RiderHome)
 def rider_home(
     home: TheRiderHome,
+    owner_id: OwnerId,
     zone: Annotated[
         str, Query(max_length=64, description="The rider's time zone, of the IANA database.")
     ] = "UTC",
@@ -30,7 +32,7 @@ def rider_home(
 ) -> Any:
     """Weeks, months, records and faults of all rides or a bike's; days begin at the zone's
     midnight, whatever its clocks do. 422 `unknown_zone` for a zone that is none."""
-    return home(zone, week_begins, bike)
+    return home(zone, week_begins, bike, owner_id)
 
 
 @router.get(
@@ -62,13 +64,13 @@ def export_rides(
 
 
 @router.post("/tags", operation_id="tag_rides", status_code=status.HTTP_204_NO_CONTENT)
-def tag_rides(body: RideTags, home: TheRiderHome) -> None:
+def tag_rides(body: RideTags, home: TheRiderHome, owner_id: OwnerId) -> None:
     """Adds tags to rides and takes others from them, all or none."""
-    home.tag(body.ride_ids, body.add, body.remove)
+    home.tag(body.ride_ids, body.add, body.remove, owner_id)
 
 
 @router.post("/delete", operation_id="delete_rides", status_code=status.HTTP_204_NO_CONTENT)
-def delete_rides(body: RidesGone, rides: TheRides) -> None:
+def delete_rides(body: RidesGone, rides: TheRides, owner_id: OwnerId) -> None:
     """Deletes rides as `delete_ride` does each, in order. One that is gone already is passed over;
     409 at one that is being recorded, behind which nothing was deleted."""
-    rides.delete_all(body.ride_ids)
+    rides.delete_all(body.ride_ids, owner_id)

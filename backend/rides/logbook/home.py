@@ -9,7 +9,7 @@ from dataclasses import asdict
 from backend.core.calendar import MONDAY, Period, last_months, last_weeks, require_zone
 from backend.core.ride import iso_utc
 from backend.core.ride_tags import clean_tags
-from backend.store import Store, Totals
+from backend.store import Store, Totals, Whose
 
 
 def now_us() -> int:
@@ -28,15 +28,20 @@ class RiderHomeService:
         self._clock = clock
 
     def __call__(
-        self, zone: str = "UTC", week_begins: int = MONDAY, bike_id: int | None = None
+        self,
+        zone: str = "UTC",
+        week_begins: int = MONDAY,
+        bike_id: int | None = None,
+        owner_id: int | None = None,
     ) -> dict[str, object]:
-        """Everything of all rides, or of a bike's. Raises InvalidRequest for an unknown zone.
+        """Everything of all rides, or of a bike's or an account's. Raises InvalidRequest for an
+        unknown zone.
 
         zone: the rider's, of the IANA database. week_begins: 1 Monday to 7 Sunday.
         """
         here, now = require_zone(zone), self._clock()
         spans = last_weeks(now, here, week_begins), last_months(now, here)
-        home = self._store.logbook.home(spans, bike_id)
+        home = self._store.logbook.home(spans, Whose(bike_id, owner_id))
         weeks, months = map(with_totals, spans, home.by_period)
         return {
             "weeks": weeks,
@@ -67,8 +72,16 @@ class RiderHomeService:
             "tags": [{"tag": tag, "rides": rides} for tag, rides in home.tags],
         }
 
-    def tag(self, ride_ids: Sequence[int], add: Sequence[str], remove: Sequence[str]) -> None:
-        """Add and remove tags of rides, all or none. Raises NotFound, InvalidRequest."""
+    def tag(
+        self,
+        ride_ids: Sequence[int],
+        add: Sequence[str],
+        remove: Sequence[str],
+        owner_id: int | None = None,
+    ) -> None:
+        """Add and remove tags of rides, all or none. Raises NotFound, also for one that is not this
+        account's; InvalidRequest."""
+        self._store.logbook.require_own(ride_ids, owner_id)
         self._store.logbook.tag(ride_ids, clean_tags(add), clean_tags(remove))
 
 

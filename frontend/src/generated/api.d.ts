@@ -262,6 +262,163 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/bikes": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Bikes
+         * @description Every bike by name, with unit, owner and rides; a rider's own.
+         */
+        get: operations["list_bikes"];
+        put?: never;
+        /**
+         * Add Bike
+         * @description A bike without a unit: a unit that connects has one by itself.
+         */
+        post: operations["add_bike"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/bikes/{bike_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Bike
+         * @description One bike; for the workshop with everybody who had it.
+         */
+        get: operations["get_bike"];
+        put?: never;
+        post?: never;
+        /**
+         * Remove Bike
+         * @description Removes a bike without a history: 409 `bike_in_use` where it has one.
+         */
+        delete: operations["remove_bike"];
+        options?: never;
+        head?: never;
+        /**
+         * Change Bike
+         * @description What a bike is, which unit is on it, or that it is lost; its owner says name and loss.
+         */
+        patch: operations["change_bike"];
+        trace?: never;
+    };
+    "/api/v1/bikes/{bike_id}/rides": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Give Rides
+         * @description Rides were made with this bike. Those that are nobody's are of whom it was then.
+         */
+        post: operations["give_rides"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/bikes/{bike_id}/pairing": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Pair Bike
+         * @description A code for a week: whoever takes it owns the bike from then on, and whose it was has the
+         *     rides of before. A code that was made earlier is none any more.
+         */
+        post: operations["pair_bike"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/bikes/{bike_id}/owner": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Leave Bike
+         * @description The bike is nobody's from now on; rides stay whose they are.
+         */
+        delete: operations["leave_bike"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/pairings/{code}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Pairing
+         * @description Which bike a code gives. Wrong codes have to wait longer and longer.
+         */
+        get: operations["get_pairing"];
+        put?: never;
+        /**
+         * Take Pairing
+         * @description Makes the signed-in user the owner.
+         */
+        post: operations["take_pairing"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/pairings/{code}/account": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Join By Pairing
+         * @description A rider's account, by the code of their bike; signs them in.
+         */
+        post: operations["join_by_pairing"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/calibration/evaluate": {
         parameters: {
             query?: never;
@@ -2572,6 +2729,136 @@ export interface components {
             from_s: number;
         };
         /**
+         * Bike
+         * @description A bike of the register. Null is what nobody said and no unit reported.
+         */
+        Bike: {
+            /** Id */
+            id: number;
+            /** Name */
+            name: string;
+            /** Model */
+            model: string | null;
+            /** Frame Number */
+            frame_number: string | null;
+            /** Battery */
+            battery: string | null;
+            /**
+             * Mileage Km
+             * @description As its counter showed it when somebody last read it.
+             */
+            mileage_km: number | null;
+            /** Mileage At */
+            mileage_at: string | null;
+            /**
+             * Lost At
+             * @description Reported as lost or stolen.
+             */
+            lost_at: string | null;
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            unit: components["schemas"]["BikeUnit"] | null;
+            /**
+             * Market
+             * @description By the unit's last configuration that is known here.
+             */
+            market: string | null;
+            /** Wheel Circumference M */
+            wheel_circumference_m: number | null;
+            owner: components["schemas"]["BikeOwner"] | null;
+            /**
+             * Rides
+             * @description That the caller may see.
+             */
+            rides: number;
+            /** Distance Km */
+            distance_km: number | null;
+            /** Last Ride At */
+            last_ride_at: string | null;
+        };
+        /**
+         * BikeChange
+         * @description What is absent stays; null takes away what was said. An owner changes name and `lost`.
+         */
+        BikeChange: {
+            /** Name */
+            name?: string | null;
+            /** Model */
+            model?: string | null;
+            /** Frame Number */
+            frame_number?: string | null;
+            /** Battery */
+            battery?: string | null;
+            /** Mileage Km */
+            mileage_km?: number | null;
+            /** Lost */
+            lost?: boolean | null;
+            /**
+             * Unit Key
+             * @description The drive unit that is on it now; it leaves the bike it was on. Null: none.
+             */
+            unit_key?: string | null;
+        };
+        /**
+         * BikeDetail
+         * @description A bike and, for the workshop, everybody who had it, the last first.
+         */
+        BikeDetail: {
+            bike: components["schemas"]["Bike"];
+            /** Owners */
+            owners: components["schemas"]["BikeOwner"][];
+        };
+        /**
+         * BikeGift
+         * @description Which rides were made with a bike.
+         */
+        BikeGift: {
+            /** Ride Ids */
+            ride_ids: number[];
+        };
+        /**
+         * BikeIn
+         * @description A bike without a unit.
+         */
+        BikeIn: {
+            /** Name */
+            name: string;
+            /** Model */
+            model?: string | null;
+            /** Frame Number */
+            frame_number?: string | null;
+            /** Battery */
+            battery?: string | null;
+            /** Mileage Km */
+            mileage_km?: number | null;
+        };
+        /**
+         * BikeOwner
+         * @description Whose a bike is or was.
+         */
+        BikeOwner: {
+            /**
+             * Person Id
+             * @description Null once the account was removed.
+             */
+            person_id: number | null;
+            /** Name */
+            name: string;
+            /**
+             * Since
+             * Format: date-time
+             */
+            since: string;
+            /**
+             * Until
+             * @description Null while it is theirs.
+             */
+            until: string | null;
+        };
+        /**
          * BikeTotals
          * @description A bike that was ridden.
          */
@@ -2589,6 +2876,30 @@ export interface components {
             rides: number;
             /** Distance Km */
             distance_km: number | null;
+        };
+        /**
+         * BikeUnit
+         * @description The drive unit on a bike.
+         */
+        BikeUnit: {
+            /** Key */
+            key: string;
+            /** Model */
+            model: string | null;
+            /** Serial Number */
+            serial_number: string | null;
+            /** Firmware Version */
+            firmware_version: string | null;
+            /**
+             * Last Seen At
+             * Format: date-time
+             */
+            last_seen_at: string;
+        };
+        /** Bikes */
+        Bikes: {
+            /** Items */
+            items: components["schemas"]["Bike"][];
         };
         /** BinExtremes */
         BinExtremes: {
@@ -5007,6 +5318,12 @@ export interface components {
             file_sha256: string | null;
             result: components["schemas"]["Result"];
         };
+        /** Joined */
+        Joined: {
+            person: components["schemas"]["Person"];
+            /** Bike Id */
+            bike_id: number;
+        };
         /**
          * Judgement
          * @description verdict: by the heaviest cause. limits: those that were used.
@@ -5734,6 +6051,35 @@ export interface components {
             secret: string;
         };
         /**
+         * NewRider
+         * @description An account for who has none, made with the code.
+         */
+        NewRider: {
+            /** Name */
+            name: string;
+            /**
+             * Password
+             * Format: password
+             * @description At least 8 characters, none of the commonest; no other rule.
+             */
+            password: string;
+        };
+        /**
+         * Offer
+         * @description What a code gives.
+         */
+        Offer: {
+            /** Bike Name */
+            bike_name: string;
+            /** Model */
+            model: string | null;
+            /**
+             * Expires At
+             * Format: date-time
+             */
+            expires_at: string;
+        };
+        /**
          * OfferedChannel
          * @description What an owner can say that a column is.
          */
@@ -5762,6 +6108,40 @@ export interface components {
              * @description At least 8 characters, none of the commonest; no other rule.
              */
             new: string;
+        };
+        /**
+         * Pairing
+         * @description The only answer that holds the code.
+         */
+        Pairing: {
+            /**
+             * Code
+             * @description `XXXX-XXXX`: whoever enters it first owns the bike.
+             */
+            code: string;
+            /**
+             * Expires At
+             * Format: date-time
+             */
+            expires_at: string;
+            /**
+             * Link
+             * @description Where it is entered, by the address this server was reached at.
+             */
+            link: string;
+            /**
+             * Qr
+             * @description The link as an image, a `data:` address of an SVG.
+             */
+            qr: string;
+        };
+        /** PairingIn */
+        PairingIn: {
+            /**
+             * Owned From
+             * @description Since when the bike is theirs: rides of it from then on become theirs, too. From the moment the code is taken if null.
+             */
+            owned_from?: string | null;
         };
         /**
          * Parameter
@@ -5914,7 +6294,7 @@ export interface components {
          * @description One thing that may be allowed.
          * @enum {string}
          */
-        Permission: "compute" | "see_bikes" | "change_bikes" | "calibrate" | "see_rides" | "change_rides" | "upload" | "see_library" | "change_library" | "simulate" | "see_server" | "back_up" | "manage_people";
+        Permission: "compute" | "see_bikes" | "change_bikes" | "calibrate" | "see_register" | "change_register" | "see_rides" | "change_rides" | "upload" | "see_library" | "change_library" | "simulate" | "see_server" | "back_up" | "manage_people";
         /**
          * Person
          * @description An account.
@@ -6682,6 +7062,11 @@ export interface components {
              * @description The bike that unit was on; null where nobody knows.
              */
             bike_id: number | null;
+            /**
+             * Owner Id
+             * @description The account whose ride it is: its bike's owner when it began, or who sent the file, if that is a rider. Null for nobody's.
+             */
+            owner_id: number | null;
             device: components["schemas"]["RideDevice"];
             /** Gaps */
             gaps: components["schemas"]["Gap"][];
@@ -10422,6 +10807,726 @@ export interface operations {
             };
             /** @description Unprocessable Entity */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_bikes: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Bikes"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    add_bike: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["BikeIn"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["BikeDetail"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_bike: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                bike_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["BikeDetail"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    remove_bike: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                bike_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    change_bike: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                bike_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["BikeChange"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["BikeDetail"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    give_rides: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                bike_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["BikeGift"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    pair_bike: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                bike_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PairingIn"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Pairing"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    leave_bike: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                bike_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_pairing: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                code: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Offer"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too Many Requests */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    take_pairing: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                code: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["BikeDetail"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too Many Requests */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    join_by_pairing: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                code: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewRider"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Joined"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too Many Requests */
+            429: {
                 headers: {
                     [name: string]: unknown;
                 };

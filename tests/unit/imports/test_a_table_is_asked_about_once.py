@@ -91,6 +91,31 @@ def test_an_answer_that_lacks_something_changes_nothing(
     assert mapping.answered_tables() == {"items": []}
 
 
+def test_what_a_rider_says_is_for_the_files_they_send(
+    store: Store, uploads: Uploads, mapping: TableMapping
+) -> None:
+    hers, his = ((f"{day}.csv", table(day)) for day in (1, 2))
+    rita, olaf, workshop = 4, 5, None
+    asked = [uploads.receive_file(*hers, rita), uploads.receive_file(*his, olaf)]
+    asked.append(uploads.receive_file(*hers, workshop))
+
+    became = mapping.say(asked[0].id, SAID)
+
+    assert became.state == "complete"
+    assert store.rides.get(became.ride_ids[0]).owner_id == rita
+    uploads.recover()
+    assert [uploads.get(one.id).code for one in asked[1:]] == ["needs_mapping"] * 2
+    assert uploads.receive_file("3.csv", table(3), rita).state == "complete"
+    assert uploads.receive_file("3.csv", table(3), olaf).code == "needs_mapping"
+    assert mapping.question(asked[1].id)["answer"] is None
+    assert mapping.answered_tables() == {"items": []}
+    # Another answer of hers reads her files anew, and still no other.
+    mapping.say(asked[0].id, {**SAID, "time_zone": "Europe/Berlin"}, read_again=True)
+    uploads.recover()
+    assert store.rides.get(became.ride_ids[0]).started_us == 1_688_195_040 * 1_000_000
+    assert [uploads.get(one.id).code for one in asked[1:]] == ["needs_mapping"] * 2
+
+
 def test_only_a_file_that_is_asked_about_can_be_answered(
     uploads: Uploads, mapping: TableMapping
 ) -> None:

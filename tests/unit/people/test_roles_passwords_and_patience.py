@@ -20,8 +20,11 @@ def test_each_role_has_all_of_the_one_before_it_and_an_admin_everything() -> Non
     assert admin == frozenset(Permission)
 
 
-def test_a_rider_has_nothing_that_belongs_to_others() -> None:
-    assert ROLES["rider"] == {Permission.COMPUTE}
+def test_a_rider_has_no_permission_that_goes_beyond_what_is_theirs() -> None:
+    """Bikes, rides and files can be somebody's; units, the library and the server cannot."""
+    of_the_workshop = {"see_bikes", "change_bikes", "calibrate", "see_library", "change_library"}
+
+    assert not ROLES["rider"] & (of_the_workshop | {"see_server", "back_up", "manage_people"})
 
 
 @pytest.mark.parametrize(

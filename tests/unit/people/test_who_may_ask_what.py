@@ -36,7 +36,18 @@ ENGINEER = {"put_simulation", "advance_simulation"}
 RIDER = {"compute_surface", "compute_points", "compute_torque_surface", "compute_mode_curves"}
 RIDER |= {"lint_table", "why_steady", "evaluate_calibration", "read_fis", "list_scenarios"}
 RIDER |= {"sign_out", "change_own_password", "give_ticket", "list_keys", "add_key", "revoke_key"}
+# Of bikes, rides and files that are theirs; a bike is handed over by its owner.
+RIDER |= {"list_bikes", "get_bike", "change_bike", "pair_bike", "leave_bike", "take_pairing"}
+RIDER |= {"list_rides", "rider_home", "export_rides", "tag_rides", "delete_rides", "sample_ride"}
+RIDER |= {"get_ride", "get_ride_series", "get_ride_track", "get_ride_figure", "export_ride"}
+RIDER |= {"energy_of_ride", "effort_of_ride", "pedalling_of_ride", "diagnosis_of_ride"}
+RIDER |= {"report_of_ride", "replay_ride", "ride_again", "why_of_ride", "cuts_of_ride"}
+RIDER |= {"ledger_of_ride", "patch_ride", "delete_ride"}
+RIDER |= {"compare_rides", "compare_ride_series", "compare_ride_crank"}
+RIDER |= {"list_uploads", "import_ride", "describe_uploads", "create_upload", "append_upload"}
+RIDER |= {"get_upload", "get_upload_offset", "delete_upload", "get_mapping", "put_mapping"}
 STRANGER = {"get_healthz", "get_readyz", "get_session", "sign_in", "make_first_person"}
+STRANGER |= {"get_pairing", "join_by_pairing"}
 # The codes of those who are refused for who they are.
 CLOSED = {"sign_in_first", "not_allowed", "not_in_the_table"}
 

@@ -1,0 +1,1 @@
+"""The register: bikes with what they are made of, whose they are, and how they change hands."""
