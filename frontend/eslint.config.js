@@ -28,6 +28,7 @@ const SHARED = {
 const FEATURES = {
   help: [],
   people: [],
+  bikes: [],
   units: [],
   imports: [],
   tuning: [],

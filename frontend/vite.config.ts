@@ -8,7 +8,7 @@ const server = process.env.SPINDLE_ORIGIN ?? 'http://127.0.0.1:8750'
 // What most pages need in one file, and pages of a kind in another: dozens of tiny ones compress
 // worse than they save.
 const MOST = [
-  'api/(?!origin_refused|pair_of_rides|people_server|upload)',
+  'api/(?!bike_server|origin_refused|pair_of_rides|people_server|upload)',
   'context/(?!KeyList|words)',
   'device/(?!FaultMoment|fault_moment|words)|stream/(?!polled)|ui|units',
   'charts/(traces/plotly\\.ts|plot_axis\\.ts|[Ss]park)',
@@ -18,7 +18,8 @@ const MOST = [
 ]
 // What Tune shows on request.
 const LATER = ['[Rr]escale', 'Scale', 'surface/(between|box|solid|words|Slice|Surface[MSV])']
-const OTHER_RIDES = ['ride/', 'insight/', 'comparison/', 'replay/', 'logbook/(ManyRides|Standing)']
+const ON_REQUEST = 'logbook/(GiveToBike|ManyRides|Standing)'
+const OTHER_RIDES = ['ride/', 'insight/', 'comparison/', 'replay/', ON_REQUEST]
 const REVIEW = ['ReviewDialog', 'review_', 'words', 'TokenSteps', 'UnlockPanel', 'Write', 'write_']
 const chunk = (name: string, pattern: string) => ({ name, test: new RegExp(`src/${pattern}`) })
 // Catalogues of another language are files of their own: only who reads them fetches them.
@@ -38,6 +39,8 @@ const GROUPS = [
   chunk('comparison', 'features/rides/comparison/'),
   chunk('insight', 'features/rides/insight'),
   chunk('service', 'features/service/(?!Guide|OnSheet|on_sheet|Restore|restored)'),
+  chunk('register', 'shared/api/(bike_server|people_server)|features/bikes/pairing/code'),
+  chunk('bikes', 'features/bikes/(?!pairing)'),
   chunk('settings', 'features/(settings|people/(People|Keys))'),
   chunk('review', `shared/(limit_proof|config/(${REVIEW.join('|')}))`),
   chunk('config', 'shared/(config/(?!DraftNotes|draft_words|words|ParameterForm)|lint)'),

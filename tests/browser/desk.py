@@ -20,7 +20,7 @@ REFUSED = re.compile(r"Failed to load resource: the server responded with a stat
 # The page scrolls in `main`; what is wider than the window would be hidden there, too.
 BELOW = "(({ scrollHeight, clientHeight }) => scrollHeight - clientHeight)(main)"
 SIDEWAYS = """() => Math.max(...[document.documentElement, document.getElementById('main')]
-    .map(({ scrollWidth, clientWidth }) => scrollWidth - clientWidth))"""
+    .filter(Boolean).map(({ scrollWidth, clientWidth }) => scrollWidth - clientWidth))"""
 # An answer makes a page ask for more: a unit, its configuration, what that gives.
 QUESTIONS_IN_TURN = 3
 TWO_FRAMES = """() => new Promise((shown) =>

@@ -46,7 +46,7 @@ def test_a_unit_without_live_values_has_no_page_of_them(
     page = desk.open("/live")
 
     expect(page.get_by_test_id("not-offered")).to_contain_text("sends no live values")
-    assert pages_offered(page) == ["Bike", "Tune", "Service", "Rides", "Settings"]
+    assert pages_offered(page) == ["Bike", "Tune", "Service", "Rides", "Fleet", "Settings"]
     assert not [url for url in asked if url.endswith("/snapshot") or "/live?" in url]
 
 

@@ -52,6 +52,8 @@ PAGES = {
     ),
     "sensor": ("/sensor", "[data-parameter=sensor_offset_counts]"),
     "service": ("/service", "[data-testid=fault-box], section"),
+    "fleet": ("/fleet", "[data-testid=fleet] a"),
+    "fleet-bike": ("/fleet/1", "[data-testid=rides-of-bike] a"),
     "settings": ("/settings", "fieldset"),
 }
 

@@ -104,7 +104,7 @@ def test_an_administrator_comes_by_the_link_and_lets_others_in(
     page.wait_for_url("**/rides?words=alps")
 
 
-def test_a_rider_on_a_phone_is_told_that_nothing_is_theirs_yet(
+def test_a_rider_on_a_phone_has_their_own_rides_and_bikes_and_no_page_of_a_unit(
     open_desk: OpenDesk, workshop: Workshop, axe: str
 ) -> None:
     ask = workshop.server.ask
@@ -121,11 +121,20 @@ def test_a_rider_on_a_phone_is_told_that_nothing_is_theirs_yet(
     assert page.evaluate(JUDGE) == []
     assert page.evaluate(SMALL_TARGETS) == []
     fill_in(page, "Rita")
-    expect(page.get_by_text("您已登录为 Rita。")).to_be_visible()
+    expect(page.get_by_text("此地址没有您可以使用的页面。")).to_be_visible()
+    places = page.get_by_role("navigation").get_by_role("link")
+    expect(places.filter(visible=True)).to_have_text(["骑行", "我的车", "设置"])
+    page.goto(f"{workshop.address}/")
+    expect(page.get_by_role("heading", name="还没有骑行")).to_be_visible()
+    page.goto(f"{workshop.address}/fleet")
+    expect(page.get_by_role("heading", name="您在这里还没有车")).to_be_visible()
+    assert page.evaluate(SMALL_TARGETS) == []
+    page.get_by_test_id("person-menu").locator("summary").click()
     page.get_by_role("button", name="退出登录").click()
 
+    page.wait_for_url("**/sign-in*")
     fill_in(page, "A")
-    page.wait_for_url("**/tune")
+    page.get_by_test_id("device-pill").wait_for()
     page.goto(f"{workshop.address}/settings")
     page.get_by_test_id("api-keys").wait_for()
     assert page.evaluate(SMALL_TARGETS) == []

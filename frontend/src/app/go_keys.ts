@@ -7,6 +7,7 @@ const PLACES: Readonly<Record<string, string>> = {
   c: 'sensor',
   s: 'service',
   r: 'rides',
+  f: 'fleet',
 }
 const WAIT_MS = 1500
 
@@ -17,6 +18,7 @@ export class GoKeys {
   constructor(
     private readonly go: (path: string) => void,
     private readonly list: () => void,
+    private readonly has: (path: string) => boolean = () => true,
   ) {}
 
   key(event: KeyboardEvent, now_ms: number): void {
@@ -24,7 +26,7 @@ export class GoKeys {
     if (typing || event.ctrlKey || event.metaKey || event.altKey) return
     const path = now_ms - this.begun_ms < WAIT_MS ? PLACES[event.key] : undefined
     this.begun_ms = event.key === 'g' ? now_ms : -Infinity
-    if (path !== undefined) this.go(path)
+    if (path !== undefined && this.has(path)) this.go(path)
     else if (event.key === '?') this.list()
     else return
     event.preventDefault()

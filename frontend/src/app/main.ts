@@ -3,13 +3,14 @@ import { Author } from '$shared/api/author.svelte'
 import { openHttp } from '$shared/api/client'
 import { here } from '$shared/api/place'
 import { Server } from '$shared/api/server'
-import { SIGN_IN, isSignedIn } from '$shared/api/signed_in'
+import { SIGN_IN, isAlone } from '$shared/api/signed_in'
 import { Drafts } from '$shared/config/drafts'
 import type { AppContext } from '$shared/context/app_context'
 import { DeviceWatch } from '$shared/context/device_watch.svelte'
 import { FirstSteps } from '$shared/context/first_steps.svelte'
 import { HealthWatch } from '$shared/context/health_watch.svelte'
 import { Help } from '$shared/context/help.svelte'
+import { Permits } from '$shared/context/permits'
 import { Rider } from '$shared/context/rider.svelte'
 import { Locale } from '$shared/i18n/locale.svelte'
 import '$shared/ui/base.css'
@@ -30,13 +31,20 @@ theme.apply()
 const author = new Author(chosen.author)
 const server: Server = new Server(openHttp(author, (device_id) => devices.keyOf(device_id)))
 const locale = new Locale()
-// Words that cannot be fetched leave the pages in English: that is better than none.
-await locale.speak(chosen.language).catch(() => undefined)
-const router = new Router()
+const permits = new Permits()
+// A page of its own: without a sign-in no request of the other pages is allowed.
+const alone = isAlone(here())
+await Promise.all([
+  // Words that cannot be fetched leave the pages in English: that is better than none.
+  locale.speak(chosen.language).catch(() => undefined),
+  alone ? undefined : permits.load(server.http),
+])
+const router = new Router(permits.has('see_bikes') ? 'bike' : 'rides')
 const devices = new DeviceWatch(server, chosen.device_id)
 const health = new HealthWatch(server)
 const context: AppContext = {
   server,
+  permits,
   author,
   rider: new Rider(chosen.threshold_power_w, chosen.heart_rate_bpm_max),
   devices,
@@ -51,19 +59,21 @@ const context: AppContext = {
   first_steps: new FirstSteps(chosen.first_steps),
   go: router.go,
 }
-// A page of its own: without a sign-in no request of the other pages is allowed.
-const alone = here() === SIGN_IN
 const target = document.getElementById('app')
 target?.replaceChildren() // what it says while nothing was loaded
 if (target && !alone) {
   router.start()
-  devices.start()
-  health.start()
+  if (permits.has('see_bikes')) devices.start()
+  else devices.startWithout()
+  if (permits.has('see_server')) health.start()
   const file = new URL(import.meta.url).pathname.split('/').at(-1)
   const build = new BuildWatch(file ?? '')
   build.start()
   mount(App, { target, props: { context, build, drafts: new Drafts(server), router } })
 }
-if (alone || isSignedIn()) {
-  void import('../features/people/sign_in').then(({ show }) => show(alone, server.http, locale))
+if (alone && here() !== SIGN_IN) {
+  void import('../features/bikes/pairing/pair').then(({ show }) => show(server.http, locale))
+} else if (alone || permits.person) {
+  const { person } = permits
+  void import('../features/people/sign_in').then(({ show }) => show(person, server.http, locale))
 }

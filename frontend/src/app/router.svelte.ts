@@ -1,5 +1,7 @@
 // The address bar is the state: which page, which ride.
+import type { Permission } from '$shared/api/people_server'
 import { here, placeOf } from '$shared/api/place'
+import { isAlone } from '$shared/api/signed_in'
 
 /** The pages of Tune in the order of their tabs. The first is at tune, another at tune/NAME. */
 export const TUNE_PAGES = ['tune', 'modes', 'try', 'why', 'library'] as const
@@ -10,6 +12,8 @@ export type PageName =
   | 'bike'
   | 'compare'
   | 'connect'
+  | 'fleet'
+  | 'fleet_bike'
   | 'live'
   | 'rides'
   | 'ride'
@@ -24,8 +28,8 @@ export interface Route {
 }
 
 const pages: Record<string, PageName> = {
-  '': 'bike',
   connect: 'connect',
+  fleet: 'fleet',
   live: 'live',
   rides: 'rides',
   sensor: 'sensor',
@@ -44,23 +48,34 @@ export function isOfUnit(page: PageName): boolean {
   return isOfTune(page) || PAGES_OF_A_UNIT.includes(page)
 }
 
+/** What a page needs; null for one that everybody has. */
+export function neededFor(page: PageName): Permission | null {
+  return isOfUnit(page) || page === 'connect' ? 'see_bikes' : null
+}
+
 export function tunePath(page: TunePage): string {
   return page === TUNE_PAGES[0] ? page : `${TUNE_PAGES[0]}/${page}`
 }
 
-export function readRoute(place: string): Route {
+/** home: the page at the empty address. */
+export function readRoute(place: string, home: PageName = 'bike'): Route {
   const [first = '', second = '', ...rest] = place.split('/')
   if (place.replace(/\/$/, '') === 'rides/compare') return { page: 'compare', id: '' }
-  if (first === 'rides' && second && rest.length === 0) {
-    return { page: 'ride', id: decodeURIComponent(second) }
+  if (second && rest.length === 0 && (first === 'rides' || first === 'fleet')) {
+    return { page: first === 'rides' ? 'ride' : 'fleet_bike', id: decodeURIComponent(second) }
   }
+  if (place === '') return { page: home, id: '' }
   const tune = TUNE_PAGES.find((page) => tunePath(page) === place.replace(/\/$/, ''))
   if (tune) return { page: tune, id: '' }
   return { page: second ? 'unknown' : (pages[first] ?? 'unknown'), id: '' }
 }
 
 export class Router {
-  route = $state.raw<Route>(readRoute(here()))
+  route = $state.raw<Route>({ page: 'unknown', id: '' })
+
+  constructor(private readonly home: PageName) {
+    this.read()
+  }
 
   start(): void {
     window.addEventListener('popstate', () => this.read())
@@ -76,7 +91,7 @@ export class Router {
   }
 
   private read(): void {
-    this.route = readRoute(here())
+    this.route = readRoute(here(), this.home)
   }
 
   // Links stay plain links: new tab, copy address and middle click work as everywhere.
@@ -86,7 +101,8 @@ export class Router {
     if (!link || !plain || event.defaultPrevented || link.target || link.hasAttribute('download')) {
       return
     }
-    if (link.origin !== location.origin || placeOf(link.pathname).startsWith('api/')) return
+    const place = placeOf(link.pathname)
+    if (link.origin !== location.origin || place.startsWith('api/') || isAlone(place)) return
     event.preventDefault()
     this.go(link.pathname + link.search)
   }

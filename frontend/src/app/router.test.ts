@@ -1,6 +1,6 @@
 /* Goal: an address names one page, and an unknown one says so. */
 import { expect, it } from 'vitest'
-import { readRoute } from './router.svelte'
+import { neededFor, readRoute } from './router.svelte'
 
 it.each([
   ['', { page: 'bike', id: '' }],
@@ -10,6 +10,8 @@ it.each([
   ['rides/12', { page: 'ride', id: '12' }],
   ['rides/compare', { page: 'compare', id: '' }],
   ['rides/12/more', { page: 'unknown', id: '' }],
+  ['fleet', { page: 'fleet', id: '' }],
+  ['fleet/12', { page: 'fleet_bike', id: '12' }],
   ['tune', { page: 'tune', id: '' }],
   ['tune/modes', { page: 'modes', id: '' }],
   ['tune/try', { page: 'try', id: '' }],
@@ -20,4 +22,12 @@ it.each([
   ['nonsense', { page: 'unknown', id: '' }],
 ])('%s', (path, route) => {
   expect(readRoute(path)).toEqual(route)
+})
+
+it('has a first page for riders, who have no unit', () => {
+  expect(readRoute('', 'rides')).toEqual({ page: 'rides', id: '' })
+  expect(['why', 'connect', 'rides', 'fleet'].filter((page) => neededFor(page as never))).toEqual([
+    'why',
+    'connect',
+  ])
 })

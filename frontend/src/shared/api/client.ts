@@ -3,7 +3,7 @@ import type { paths } from '$generated/api'
 import createClient, { type Client } from 'openapi-fetch'
 import type { Author } from './author.svelte'
 import { here } from './place'
-import { SIGN_IN } from './signed_in'
+import { SIGN_IN, isAlone } from './signed_in'
 import type { FieldProblem, Problem, TokenChallenge } from './types'
 
 /** Why a request did not succeed. status 0: the server did not answer at all. */
@@ -45,8 +45,8 @@ export function openHttp(author: Author, keyOf: KeyOf, base = document.baseURI):
     },
     onResponse({ response }) {
       const { pathname, search } = location
-      // The sign-in page says by itself what is wrong.
-      if (response.status === 401 && here() !== SIGN_IN) {
+      // A page without the others says by itself what is wrong.
+      if (response.status === 401 && !isAlone(here())) {
         location.assign(`${SIGN_IN}?back=${encodeURIComponent(pathname + search)}`)
       }
     },

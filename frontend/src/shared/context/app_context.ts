@@ -12,10 +12,12 @@ import type { DeviceWatch } from './device_watch.svelte'
 import type { FirstSteps } from './first_steps.svelte'
 import type { HealthWatch } from './health_watch.svelte'
 import type { Help } from './help.svelte'
+import type { Permits } from './permits'
 import type { Rider } from './rider.svelte'
 
 export interface AppContext {
   server: Server
+  permits: Permits
   author: Author
   rider: Rider
   devices: DeviceWatch
