@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from sqlalchemy import Connection, Row, delete, func, insert, select, update
+from sqlalchemy import ColumnElement, Connection, Row, Table, delete, func, insert, select, update
 
 from backend.bikes.types import Bike, BikeDetail, BikeOwner, BikeUnit, Offer
 from backend.core.moments import utc, utc_or_none
@@ -15,6 +14,7 @@ from backend.errors import Conflict, NotFound
 from backend.store.bikes import owner_at
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database
+from backend.store.wall_clock import now_us
 
 BIKES_MAX = 20_000
 
@@ -41,7 +41,7 @@ class BikeStore:
         """One bike. owner_id: who looks, and sees no earlier owners. Raises NotFound."""
 
         def work(connection: Connection) -> BikeDetail:
-            [bike] = bikes_of(connection, [row_of(connection, bike_id)], owner_id)
+            [bike] = bikes_of(connection, [row_of(connection, bike_id)], owner_id, bike_id)
             owner = t.bike_owner.c
             query = select(t.bike_owner).where(owner.bike_id == bike_id)
             if owner_id is not None:
@@ -274,11 +274,18 @@ def row_of(connection: Connection, bike_id: int) -> Row[Any]:
 
 
 def bikes_of(
-    connection: Connection, rows: Sequence[Row[Any]], owner_id: int | None
+    connection: Connection,
+    rows: Sequence[Row[Any]],
+    owner_id: int | None,
+    only: int | None = None,
 ) -> tuple[Bike, ...]:
-    """Rows of `bike` with what other tables have of them. owner_id: whose rides count."""
-    units, owners = units_now(connection), owners_now(connection)
-    rides, settings = rides_by_bike(connection, owner_id), settings_now(connection)
+    """Rows of `bike` with what other tables have of them.
+
+    owner_id: whose rides count. only: the number of the bike, where it is one.
+    """
+    units, owners = units_now(connection, only), owners_now(connection, only)
+    rides = rides_by_bike(connection, owner_id, only)
+    settings = settings_now(connection, only)
 
     def bike_of(row: Row[Any]) -> Bike:
         unit, ridden = units.get(row.id), rides.get(row.id)
@@ -305,11 +312,18 @@ def bikes_of(
     return tuple(bike_of(row) for row in rows)
 
 
-def units_now(connection: Connection) -> dict[int, BikeUnit]:
-    """The unit that is on each bike."""
+def of_bike(table: Table, only: int | None) -> ColumnElement[bool]:
+    """Rows that have a bike; only: this one."""
+    bike_id = table.c.bike_id
+    return bike_id.is_not(None) if only is None else bike_id == only
+
+
+def units_now(connection: Connection, only: int | None) -> dict[int, BikeUnit]:
+    """The unit that is on each bike, or on one."""
     on = t.unit.c.key == t.bike_unit.c.unit_key
     query = select(t.bike_unit.c.bike_id, t.unit).join(t.unit, on)
-    rows = connection.execute(query.where(t.bike_unit.c.to_us.is_(None)))
+    query = query.where(t.bike_unit.c.to_us.is_(None), of_bike(t.bike_unit, only))
+    rows = connection.execute(query)
     return {
         row.bike_id: BikeUnit(
             row.key, row.model, row.serial_number, row.firmware_version, utc(row.last_seen_us)
@@ -318,9 +332,10 @@ def units_now(connection: Connection) -> dict[int, BikeUnit]:
     }
 
 
-def owners_now(connection: Connection) -> dict[int, BikeOwner]:
-    """The owner of each bike that is somebody's."""
-    rows = connection.execute(select(t.bike_owner).where(t.bike_owner.c.to_us.is_(None)))
+def owners_now(connection: Connection, only: int | None) -> dict[int, BikeOwner]:
+    """The owner of each bike, or of one, that is somebody's."""
+    still = t.bike_owner.c.to_us.is_(None) & of_bike(t.bike_owner, only)
+    rows = connection.execute(select(t.bike_owner).where(still))
     return {row.bike_id: owner_of_row(row) for row in rows}
 
 
@@ -338,21 +353,25 @@ class Ridden(NamedTuple):
     last_us: int
 
 
-def rides_by_bike(connection: Connection, owner_id: int | None) -> dict[int, Ridden]:
-    """Of each bike: how many rides, how far, when last; of two recordings of one the better."""
+def rides_by_bike(
+    connection: Connection, owner_id: int | None, only: int | None
+) -> dict[int, Ridden]:
+    """Of each bike, or of one: how many rides, how far, when last; of two recordings the better."""
     ride, summary = t.ride.c, t.ride_summary.c
     columns = (ride.bike_id, func.count(), func.sum(summary.distance_km), func.max(ride.started_us))
     query = select(*columns).join(t.ride_summary, summary.ride_id == ride.id)
-    query = query.where(summary.outdone == 0, ride.bike_id.is_not(None))
+    query = query.where(summary.outdone == 0, of_bike(t.ride, only))
     if owner_id is not None:
         query = query.where(ride.owner_id == owner_id)
     rows = connection.execute(query.group_by(ride.bike_id))
     return {row[0]: Ridden(*row) for row in rows}
 
 
-def settings_now(connection: Connection) -> dict[str, dict[str, Any]]:
-    """The last configuration that is known of each unit."""
-    newest = select(func.max(t.revision.c.id)).group_by(t.revision.c.unit_key)
+def settings_now(connection: Connection, only: int | None) -> dict[str, dict[str, Any]]:
+    """The last configuration that is known of each unit that is on a bike, or on one."""
+    on_now = t.bike_unit.c.to_us.is_(None) & of_bike(t.bike_unit, only)
+    here = t.revision.c.unit_key.in_(select(t.bike_unit.c.unit_key).where(on_now))
+    newest = select(func.max(t.revision.c.id)).where(here).group_by(t.revision.c.unit_key)
     query = select(t.revision.c.unit_key, t.revision.c.body).where(t.revision.c.id.in_(newest))
     return {row.unit_key: row.body for row in connection.execute(query)}
 
@@ -367,8 +386,3 @@ def taker(code_sha256: str) -> Callable[[Connection, Person], int]:
         return bike_id
 
     return take
-
-
-def now_us() -> int:
-    """Unix time."""
-    return time.time_ns() // 1000

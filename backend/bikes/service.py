@@ -6,18 +6,18 @@ import threading
 import time
 from collections.abc import Callable, Sequence
 from datetime import datetime
-from math import ceil
 from typing import Any, TypeVar
 
 from backend.bikes.codes import new_code, plain_code, qr_of
-from backend.bikes.records import BikeStore, PairingStore, now_us, taker
+from backend.bikes.records import BikeStore, PairingStore, taker
 from backend.bikes.types import Bike, BikeChange, BikeDetail, BikeIn, Offer, Pairing
 from backend.core.moments import utc
 from backend.core.person import Person
-from backend.errors import FieldError, InvalidRequest, NotAllowed, NotFound, TooManyTries
+from backend.errors import FieldError, InvalidRequest, NotAllowed, NotFound
 from backend.people.service import PeopleService
-from backend.people.throttle import Throttle
+from backend.people.throttle import Throttle, begin
 from backend.people.tokens import token_sha256
+from backend.store.wall_clock import now_us
 
 Found = TypeVar("Found")
 VALID_US = 7 * 86_400 * 1_000_000
@@ -132,11 +132,7 @@ class Bikes:
     def _counted(self, address: str, look: Callable[[str], Found | None], code: str) -> Found:
         """What a code leads to. Raises NotFound, TooManyTries where it comes too soon."""
         with self._turn:
-            wait_s = self._tries.wait_s(address, self._now_s())
-            if wait_s > 0.0:
-                message = f"Too many wrong codes: wait {ceil(wait_s)} s, then try again."
-                raise TooManyTries(message, wait_s)
-            self._tries.count(address, self._now_s())
+            begin(self._now_s(), "codes", (self._tries, address))
         found = look(token_sha256(plain_code(code)))
         if found is None:
             raise NotFound(NO_CODE, "no_pairing")

@@ -6,7 +6,6 @@ out and stays.
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
@@ -30,6 +29,7 @@ from backend.store.discard import calibration_key
 from backend.store.soundness import WORDS, Expected
 from backend.store.sql import tables as t
 from backend.store.store import Store
+from backend.store.wall_clock import now_us
 
 JOBS_MAX = 1000
 CAPTURES_MAX = 500
@@ -307,7 +307,3 @@ def set_dates(
         which = (row.calibration_id == job.id) & (row.number == one.number)
         values = {"body": dict(one.body), "struck": one.struck}
         connection.execute(update(t.calibration_capture).where(which).values(values))
-
-
-def now_us() -> int:
-    return time.time_ns() // 1000

@@ -10,7 +10,6 @@ threads of its own (`reading.Lanes`): `begin` and `add` never wait for it.
 from __future__ import annotations
 
 import io
-import time
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from contextlib import suppress
@@ -40,6 +39,7 @@ from backend.imports.reading import SLOW, UNPACKING, GoesElsewhere, Lanes, ride_
 from backend.imports.records import TableAnswers
 from backend.store import Store, Upload, Verdict
 from backend.store.soundness import Expected, damaged_upload
+from backend.store.wall_clock import now_us
 
 # A ride of a day is 10 MB in any format; the bound keeps one client from filling the disk.
 UPLOAD_BYTES_MAX = 256 * 1024 * 1024
@@ -448,11 +448,6 @@ class Uploads:
         return self._conclude(
             upload.id, first.state, "duplicate", sentence, first.completeness, ride.id
         )
-
-
-def now_us() -> int:
-    """Wall time in microseconds since 1970."""
-    return time.time_ns() // 1000
 
 
 def misfit(rides: Sequence[Ride], outcome: Outcome) -> str | None:

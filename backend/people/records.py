@@ -8,7 +8,6 @@ times are Unix microseconds.
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, TypeAlias, TypeVar
 
@@ -20,6 +19,7 @@ from backend.errors import Conflict, NotFound
 from backend.people.types import ApiKey
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database
+from backend.store.wall_clock import now_us
 
 # More than a large workshop has; bounds what a list holds.
 ACCOUNTS_MAX = 10_000
@@ -195,11 +195,6 @@ def person_of(row: Row[Any]) -> Person:
         created_at=utc(row.created_us),
         signed_in_at=utc_or_none(row.signed_in_us),
     )
-
-
-def now_us() -> int:
-    """Unix time."""
-    return time.time_ns() // 1000
 
 
 class SessionStore:

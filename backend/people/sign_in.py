@@ -8,13 +8,12 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import replace
-from math import ceil
 
 from backend.core.person import Caller, Person, folded
-from backend.errors import NotSignedIn, TooManyTries
+from backend.errors import NotSignedIn
 from backend.people.passwords import Passwords, field_refusal, require_good
 from backend.people.records import AccountStore, SessionStore
-from backend.people.throttle import Throttle
+from backend.people.throttle import Throttle, begin
 from backend.people.tokens import new_token, token_sha256
 from backend.people.types import PASSWORD_LENGTH_MAX
 
@@ -114,13 +113,8 @@ class SignIn:
     def _begin(self, name: str, address: str) -> None:
         """Counts a try. Raises TooManyTries where it comes too soon."""
         with self._turn:
-            now_s = self._now_s()
-            wait_s = max(self._by_name.wait_s(name, now_s), self._by_address.wait_s(address, now_s))
-            if wait_s > 0.0:
-                message = f"Too many wrong passwords: wait {ceil(wait_s)} s, then try again."
-                raise TooManyTries(message, wait_s)
-            self._by_name.count(name, now_s)
-            self._by_address.count(address, now_s)
+            tries = ((self._by_name, name), (self._by_address, address))
+            begin(self._now_s(), "passwords", *tries)
 
     def _succeed(self, name: str, address: str) -> None:
         with self._turn:

@@ -8,6 +8,9 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from dataclasses import dataclass
+from math import ceil
+
+from backend.errors import TooManyTries
 
 # Bounds the memory that strangers can take.
 KEYS_MAX = 10_000
@@ -66,3 +69,16 @@ class Throttle:
             del self._failures[key]
             return None
         return failures
+
+
+def begin(now_s: float, what: str, *tries: tuple[Throttle, str]) -> None:
+    """A try begins, counted by each of these with its key. what: of which there were wrong ones.
+
+    Raises TooManyTries where one of them has to wait; then nothing is counted.
+    """
+    wait_s = max(throttle.wait_s(key, now_s) for throttle, key in tries)
+    if wait_s > 0.0:
+        message = f"Too many wrong {what}: wait {ceil(wait_s)} s, then try again."
+        raise TooManyTries(message, wait_s)
+    for throttle, key in tries:
+        throttle.count(key, now_s)

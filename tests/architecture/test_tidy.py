@@ -20,7 +20,7 @@ LINE_LENGTH_MAX = 100
 CODE_SUFFIXES = {".py", ".c", ".h", ".ts", ".svelte", ".css"}
 LINES_MAX = {
     "backend": 1_600,
-    "backend/bikes": 850,
+    "backend/bikes": 860,
     "backend/calibration": 7_650,
     "backend/cli": 2_000,
     "backend/core": 2_800,
@@ -37,7 +37,7 @@ LINES_MAX = {
     "backend/units": 2_250,
     "backend/web": 1_600,
     "firmware_protocol": 4_450,
-    "frontend": 46_700,
+    "frontend": 46_650,
     "sim_device": 21_150,
     "spindle": 700,
     "tests": 72_100,

@@ -30,8 +30,8 @@ from backend.rides.diagnosis.zero_trend import (
     level_of,
     trend_of,
 )
-from backend.rides.logbook.home import now_us
 from backend.store import Store
+from backend.store.wall_clock import now_us
 from backend.tuning.revisions import TRIED
 
 SCALE = ("sensor_offset_counts", "sensor_gain_nm_per_count")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
 
@@ -10,11 +9,7 @@ from backend.core.calendar import MONDAY, Period, last_months, last_weeks, requi
 from backend.core.ride import iso_utc
 from backend.core.ride_tags import clean_tags
 from backend.store import Store, Totals, Whose
-
-
-def now_us() -> int:
-    """Unix time in microseconds."""
-    return time.time_ns() // 1000
+from backend.store.wall_clock import now_us
 
 
 class RiderHomeService:

@@ -7,7 +7,6 @@ alone writes, so one lock decides who was first.
 from __future__ import annotations
 
 import threading
-import time
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -18,6 +17,7 @@ from backend.core.canonical_json import sha256_of
 from backend.errors import Conflict
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database
+from backend.store.wall_clock import now_us
 from backend.tuning.library.types import LibraryVersion
 
 Body = Mapping[str, Any]
@@ -164,8 +164,3 @@ def append(
     connection.execute(insert(t.library_version).values(values))
     query = versions().where(t.library_version.c.item_id == item_id, t.library_version.c.seq == seq)
     return version_of(connection.execute(query).one())
-
-
-def now_us() -> int:
-    """Unix time."""
-    return time.time_ns() // 1000

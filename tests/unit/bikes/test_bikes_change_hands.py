@@ -13,7 +13,6 @@ import numpy as np
 import pytest
 from sqlalchemy import update
 
-from backend.bikes import records
 from backend.bikes.codes import ALPHABET, new_code, plain_code
 from backend.bikes.records import BikeStore, PairingStore
 from backend.bikes.service import FREE_TRIES, VALID_US, Bikes
@@ -25,6 +24,7 @@ from backend.errors import Conflict, InvalidRequest, NotAllowed, NotFound, TooMa
 from backend.people.service import PeopleService
 from backend.store import Sought, Store, open_store
 from backend.store.sql import tables as t
+from backend.store.wall_clock import now_us
 from tests.fakes.house import PASSWORD
 
 SPEED = ChannelSpec("speed_kmh", "km/h", 0.01)
@@ -156,7 +156,7 @@ def test_a_newer_code_and_a_week_end_a_code(register: Register) -> None:
     with pytest.raises(NotFound):
         register.bikes.take(first, rita, "here")
 
-    made_us = records.now_us()
+    made_us = now_us()
     assert register.bikes.offer(second, "here").expires_at.timestamp() * 1e6 <= made_us + VALID_US
     with register.store.database.engine.begin() as connection:
         connection.execute(update(t.pairing).values(expires_us=made_us))
