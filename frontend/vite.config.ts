@@ -10,7 +10,7 @@ const server = process.env.SPINDLE_ORIGIN ?? 'http://127.0.0.1:8750'
 const MOST = [
   'api/(?!bike_server|origin_refused|pair_of_rides|people_server|upload)',
   'context/(?!KeyList|words)',
-  'device/(?!FaultMoment|fault_moment|words)|stream/(?!polled)|ui|units',
+  'device/(?!FaultMoment|fault_moment|words)|stream/(?!polled)|ui/(?!Account|Alone)|units',
   'charts/(traces/plotly\\.ts|plot_axis\\.ts|[Ss]park)',
   'config/(config_draft|drafts|elements|stored_drafts|limits|page_draft|parameter_text)',
   'config/(ratchet|trial|two_tables)',
