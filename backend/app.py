@@ -71,11 +71,11 @@ OPERATIONS: dict[Permission | Anyone, str] = {
     "compare_ride_crank energy_of_ride effort_of_ride pedalling_of_ride diagnosis_of_ride "
     "report_of_ride list_rides get_ride get_ride_series get_ride_track get_ride_figure "
     "export_ride replay_ride ride_again why_of_ride cuts_of_ride ledger_of_ride table_use "
-    "propose get_proposal cancel_proposal list_tables list_uploads",
+    "propose get_proposal cancel_proposal list_tables get_mapping",
     P.CHANGE_RIDES: "tag_rides delete_rides patch_ride delete_ride delete_upload "
-    "forget_table sample_ride",
-    P.UPLOAD: "import_ride describe_uploads create_upload "
-    "get_upload_offset append_upload get_upload get_mapping put_mapping",
+    "forget_table sample_ride put_mapping",
+    P.UPLOAD_FILES: "import_ride describe_uploads create_upload "
+    "get_upload_offset append_upload get_upload list_uploads",
 }
 NEEDED = {one: needed for needed, operations in OPERATIONS.items() for one in operations.split()}
 

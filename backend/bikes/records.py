@@ -9,11 +9,12 @@ from sqlalchemy import ColumnElement, Connection, Row, Table, delete, func, inse
 
 from backend.bikes.types import Bike, BikeDetail, BikeOwner, BikeUnit, Offer
 from backend.core.moments import utc, utc_or_none
-from backend.core.person import Person
+from backend.core.person import Person, Sender
 from backend.errors import Conflict, NotFound
 from backend.store.bikes import owner_at
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database
+from backend.store.upload_rows import sent_by
 from backend.store.wall_clock import now_us
 
 BIKES_MAX = 20_000
@@ -78,7 +79,7 @@ class BikeStore:
         self._database.write(work)
 
     def remove(self, bike_id: int) -> None:
-        """Remove a bike that has no unit, ride, calibration or owner.
+        """Remove a bike that has no unit, ride, calibration, owner or key of its own.
 
         Raises NotFound; Conflict `bike_in_use`; StoreError.
         """
@@ -89,10 +90,10 @@ class BikeStore:
             used = [select(t.bike_unit.c.id).where(on_now)]
             used += [
                 select(table.c.id).where(table.c.bike_id == bike_id)
-                for table in (t.ride, t.calibration, t.bike_owner)
+                for table in (t.ride, t.calibration, t.bike_owner, t.api_key, t.upload)
             ]
             if any(connection.execute(one.limit(1)).first() is not None for one in used):
-                message = "It has a unit, rides, calibrations or owners: these are its history."
+                message = "It has a unit, rides, files, calibrations, owners or keys: its history."
                 raise Conflict(message, "bike_in_use")
             for table in (t.pairing, t.bike_unit):
                 connection.execute(delete(table).where(table.c.bike_id == bike_id))
@@ -123,11 +124,12 @@ class BikeStore:
 
         self._database.write(work)
 
-    def is_own(self, owner_id: int, kind: str, name: str) -> bool:
-        """Whether what an address names is this account's. Never raises for what is no name."""
+    def is_own(self, whose: Sender, kind: str, name: str) -> bool:
+        """Whether what an address names is this account's, or was sent with this key. Never raises
+        for what is no name."""
+        owner_id = whose.owner_id
         if kind == "upload_id":
-            query = select(t.upload.c.id).where(t.upload.c.token == name)
-            query = query.where(t.upload.c.owner_id == owner_id)
+            query = select(t.upload.c.id).where(t.upload.c.token == name, sent_by(whose))
         elif not (name.isascii() and name.isdecimal() and len(name) < 19):
             return False
         elif kind == "ride_id":

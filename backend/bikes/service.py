@@ -12,7 +12,7 @@ from backend.bikes.codes import new_code, plain_code, qr_of
 from backend.bikes.records import BikeStore, PairingStore, taker
 from backend.bikes.types import Bike, BikeChange, BikeDetail, BikeIn, Offer, Pairing
 from backend.core.moments import utc
-from backend.core.person import Person
+from backend.core.person import Person, Sender
 from backend.errors import FieldError, InvalidRequest, NotAllowed, NotFound
 from backend.people.service import PeopleService
 from backend.people.throttle import Throttle, begin
@@ -125,9 +125,12 @@ class Bikes:
         """The bike is nobody's from now on. Raises NotFound, StoreError."""
         self._pairings.leave(bike_id)
 
-    def is_own(self, owner_id: int, kind: str, name: str) -> bool:
-        """Whether what an address names is this account's. Raises StoreError."""
-        return self._bikes.is_own(owner_id, kind, name)
+    def is_own(self, whose: Sender, kind: str, name: str) -> bool:
+        """Whether what an address names is this account's, or was sent with this key.
+
+        Raises StoreError.
+        """
+        return self._bikes.is_own(whose, kind, name)
 
     def _counted(self, address: str, look: Callable[[str], Found | None], code: str) -> Found:
         """What a code leads to. Raises NotFound, TooManyTries where it comes too soon."""

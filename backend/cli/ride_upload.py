@@ -1,8 +1,8 @@
 """`spindle ride upload`: files and whole folders to a server, once or as they appear.
 
     look at the folders -> files that stand still -> known by hash, or sent in parts -> verdict
-A server that is away is waited for, and a file goes on where it stood. What was done is not kept
-here: the server knows every file by its hash.
+A server that is away is waited for, and a file goes on where it stood, also where another run of
+this command began it. What was done is not kept here: the server knows every file by its hash.
 """
 
 from __future__ import annotations
@@ -71,12 +71,17 @@ class Sender:
         for upload in uploads:
             if upload["ride_ids"] and upload["parts"] is None:
                 return {**upload, "code": "duplicate", "duplicate_of": upload["ride_ids"][0]}
+        for upload in uploads:
+            if upload["state"] == "receiving" and upload["length"] == len(data):
+                return self._go_on(f"/uploads/{upload['id']}", upload["received"], data)
         described = {"filename": name, "sha256": sha256}
         pairs = (f"{key} {base64.b64encode(v.encode()).decode()}" for key, v in described.items())
         headers = {**TUS, "upload-length": str(len(data)), "upload-metadata": ",".join(pairs)}
         location = self._patiently("POST", "/uploads", headers=headers).headers["location"]
-        path = "/uploads/" + location.rsplit("/", 1)[-1]
-        offset = 0
+        return self._go_on("/uploads/" + location.rsplit("/", 1)[-1], 0, data)
+
+    def _go_on(self, path: str, offset: int, data: bytes) -> dict[str, Any]:
+        """Send what is left of a file; the server's verdict."""
         while offset < len(data):
             part = data[offset : offset + PART_BYTES]
             try:

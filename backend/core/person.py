@@ -35,7 +35,7 @@ class Permission(StrEnum):
     """Rides, where they went, and the files they came from."""
     CHANGE_RIDES = "change_rides"
     """Name, tag and delete rides and files."""
-    UPLOAD = "upload"
+    UPLOAD_FILES = "upload_files"
     """Send files that become rides, and see what became of them."""
     SEE_LIBRARY = "see_library"
     """Items of the library."""
@@ -53,7 +53,7 @@ class Permission(StrEnum):
 
 P = Permission
 RIDER = frozenset(
-    {P.COMPUTE, P.SEE_REGISTER, P.CHANGE_REGISTER, P.SEE_RIDES, P.CHANGE_RIDES, P.UPLOAD}
+    {P.COMPUTE, P.SEE_REGISTER, P.CHANGE_REGISTER, P.SEE_RIDES, P.CHANGE_RIDES, P.UPLOAD_FILES}
 )
 DEALER = RIDER | {
     P.SEE_BIKES,
@@ -94,20 +94,45 @@ class Person:
 
 
 @dataclass(frozen=True)
+class Sender:
+    """Who sends a file. owner_id: the rider, whose rides it makes; None for others, who send
+    anybody's. key_id: the key it is sent with. bike_id: the one bike which that key is for."""
+
+    owner_id: int | None = None
+    key_id: int | None = None
+    bike_id: int | None = None
+
+
+ANYBODY = Sender()
+
+
+@dataclass(frozen=True)
 class Caller:
     """Who is behind a request, by a session or a key. by_cookie: a browser sent the proof by
-    itself, unasked."""
+    itself, unasked. bike_id: the one bike a key is for."""
 
     person: Person
     permissions: frozenset[Permission]
     by_cookie: bool = False
     session_id: int | None = None
     key_id: int | None = None
+    bike_id: int | None = None
 
     @property
     def owner_id(self) -> int | None:
         """Whose bikes and rides alone are the caller's affair; None for everybody's."""
         return self.person.id if self.person.role == "rider" else None
+
+    @property
+    def sender(self) -> Sender:
+        """As whose a file arrives that the caller sends."""
+        return Sender(self.owner_id, self.key_id, self.bike_id)
+
+    @property
+    def whose_files(self) -> Sender:
+        """Whose files alone are the caller's affair: of a key that sees no rides what it sent."""
+        by_key = None if Permission.SEE_RIDES in self.permissions else self.key_id
+        return Sender(self.owner_id, by_key)
 
 
 def folded(name: str) -> str:

@@ -23,12 +23,13 @@ from fastapi import APIRouter, Header, HTTPException, Query, Request, Response
 from fastapi.concurrency import run_in_threadpool
 from pydantic import BeforeValidator
 
+from backend.core.person import Sender
 from backend.errors import BadFile, InvalidRequest
 from backend.imports.models import Upload, UploadList
 from backend.imports.service import Uploads
 from backend.rides.models import Ride
 from backend.rides.service import Rides
-from backend.web.permissions import OwnerId
+from backend.web.permissions import SenderOf, WhoseFiles
 from backend.web.problem import problem_response, refusals
 from backend.web.services import provided
 
@@ -73,11 +74,11 @@ FileName = Annotated[str, Query(min_length=1, max_length=255, description="The f
 
 @router.post("/rides/import", operation_id="import_ride", response_model=Upload)
 async def import_ride(
-    name: FileName, request: Request, uploads: TheUploads, owner_id: OwnerId
+    name: FileName, request: Request, uploads: TheUploads, sender: SenderOf
 ) -> Any:
     """A whole file as the request's body; answers when it has become a ride or been refused."""
     length = _declared_length(request)
-    upload = await _begin(uploads, owner_id, name, length)
+    upload = await _begin(uploads, sender, name, length)
     with suppress(BadFile):
         await _append_stream(uploads, upload.id, 0, request.stream())
     return await run_in_threadpool(uploads.get, upload.id)
@@ -86,11 +87,11 @@ async def import_ride(
 @router.post("/rides/sample", operation_id="sample_ride", response_model=Ride)
 def make_sample_ride(
     rides: TheRides,
-    owner_id: OwnerId,
-    make: Annotated[Callable[[int | None], int], provided("sample_ride")],
+    sender: SenderOf,
+    make: Annotated[Callable[[Sender], int], provided("sample_ride")],
 ) -> Any:
     """A sample ride, simulated and named so; the existing one, if there is one."""
-    return rides.get(make(owner_id))
+    return rides.get(make(sender))
 
 
 @router.options("/uploads", operation_id="describe_uploads", status_code=204)
@@ -109,7 +110,7 @@ async def describe_uploads(request: Request) -> Response:
 async def create_upload(
     request: Request,
     uploads: TheUploads,
-    owner_id: OwnerId,
+    sender: SenderOf,
     upload_length: ByteCount,
     upload_metadata: Annotated[str, Header(max_length=4000)] = "",
     upload_checksum: UploadChecksum = None,
@@ -141,7 +142,7 @@ async def create_upload(
         if len(chunk) > upload_length:
             return _too_long(upload_length)
         chunks = _one(chunk)
-    upload = await _begin(uploads, owner_id, name[:255], upload_length, sha256)
+    upload = await _begin(uploads, sender, name[:255], upload_length, sha256)
     offset = 0
     if with_part:
         try:
@@ -209,7 +210,7 @@ async def append_upload(
 @router.get("/uploads", operation_id="list_uploads", response_model=UploadList)
 def list_uploads(
     uploads: TheUploads,
-    owner_id: OwnerId,
+    whose: WhoseFiles,
     limit: Annotated[int, Query(ge=1, le=500)] = 50,
     cursor: Annotated[str | None, Query(max_length=64)] = None,
     part_of: Annotated[str | None, Query(max_length=64)] = None,
@@ -218,9 +219,12 @@ def list_uploads(
     """Every file that came, the latest first: also those that were refused and can be removed.
 
     Those within a container are listed with `part_of`, its upload. With `sha256` only files of
-    these bytes: whether one is here already is known before it is sent.
+    these bytes: whether one is here already is known before it is sent, and one of which they are
+    declared goes on where it stands.
+
+    A key that sees no rides is shown what it sent itself.
     """
-    return uploads.list(limit, cursor, part_of, sha256, owner_id)
+    return uploads.list(limit, cursor, part_of, sha256, whose)
 
 
 @router.get("/uploads/{upload_id}", operation_id="get_upload", response_model=Upload)
@@ -350,10 +354,10 @@ def _expiry(upload: Any, received: int | None = None) -> dict[str, str]:
 
 
 async def _begin(
-    uploads: Uploads, owner_id: int | None, name: str, length: int, sha256: str | None = None
+    uploads: Uploads, sender: Sender, name: str, length: int, sha256: str | None = None
 ) -> Any:
     """A new upload; a file without bytes has arrived with it."""
-    upload = await run_in_threadpool(uploads.begin, name, length, sha256, owner_id=owner_id)
+    upload = await run_in_threadpool(uploads.begin, name, length, sha256, sender=sender)
     if length == 0:
         await _add(uploads, upload.id, 0, b"")
     return upload

@@ -55,14 +55,7 @@ class TableMapping:
         known = {"offered_channels": OFFERED, "answer": answer, "files_read": len(read)}
         return asdict(question) | known
 
-    def say(
-        self,
-        upload_id: str,
-        values: Mapping[str, Any],
-        *,
-        read_again: bool = False,
-        may_change_rides: bool = True,
-    ) -> Upload:
+    def say(self, upload_id: str, values: Mapping[str, Any], *, read_again: bool = False) -> Upload:
         """Keep an answer and read the file by it; what became of it. Rides that were made of it
         become what it says now. Of a file that a rider sent the answer is that rider's alone.
 
@@ -70,15 +63,13 @@ class TableMapping:
         of it; then the containers they are within are judged anew. values: the members of
         TableAnswer. A file whose answer opens another question waits for that, if it is no ride
         yet. read_again: whether other files with this header that were read are read by it, too.
-        Raises NotFound, Conflict; InvalidRequest for an answer that lacks something, or says what
-        cannot be; NotAllowed where it would change rides and may not.
+        Raises NotFound, Conflict, NotAllowed; InvalidRequest for an answer that lacks something, or
+        says what cannot be.
         """
         answer = answer_from_json(values) or TableAnswer()
         upload = self._uploads.answerable(upload_id)
         if upload.owner_id != self._uploads.get(upload_id).owner_id:
             raise NotAllowed("The workshop sent this file before: it says what its columns are.")
-        if (upload.ride_ids or read_again) and not may_change_rides:
-            raise NotAllowed("Rides are made of this file already: this changes them.")
         # A file that is no ride yet can wait for what its answer opens.
         question = self._uploads.question(upload, answer if upload.ride_ids else None)
         check(question, answer)

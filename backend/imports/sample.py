@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from backend.core.person import ANYBODY, Sender
 from backend.errors import StoreError
 from backend.formats.blocks import BLOCKS_SUFFIX
 from backend.imports.service import Uploads
@@ -12,12 +13,12 @@ NAME = "Sample ride, simulated"
 NOTES = "Simulated by Spindle for exploring: nobody rode it."
 
 
-def sample_ride(store: Store, uploads: Uploads, owner_id: int | None = None) -> int:
-    """Id of the sample ride, if need be of this rider: made where it is not here, else as it is.
+def sample_ride(store: Store, uploads: Uploads, sender: Sender = ANYBODY) -> int:
+    """Id of the sample ride, if need be of a rider: made where it is not here, else as it is.
 
     Raises StoreError.
     """
-    upload = uploads.receive_file(NAME + BLOCKS_SUFFIX, sample_log(), owner_id)
+    upload = uploads.receive_file(NAME + BLOCKS_SUFFIX, sample_log(), sender)
     if upload.duplicate_of is not None:
         return upload.duplicate_of
     if not upload.ride_ids:

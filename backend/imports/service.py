@@ -17,6 +17,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
+from backend.core.person import ANYBODY, Sender
 from backend.core.ride import Ride, iso_utc
 from backend.errors import BadFile, Conflict, InvalidRequest, SpindleError
 from backend.formats import (
@@ -111,10 +112,10 @@ class Uploads:
         self._lanes.close(self._stop_readers)
 
     def create(
-        self, name: str, length: int, sha256: str | None = None, owner_id: int | None = None
+        self, name: str, length: int, sha256: str | None = None, sender: Sender = ANYBODY
     ) -> Upload:
         """`begin`; a file without bytes has arrived with it and is concluded."""
-        upload = self.begin(name, length, sha256, owner_id=owner_id)
+        upload = self.begin(name, length, sha256, sender=sender)
         return self._submit(upload.id).result() if length == 0 else upload
 
     def begin(
@@ -123,13 +124,12 @@ class Uploads:
         length: int,
         sha256: str | None = None,
         part_of: str | None = None,
-        owner_id: int | None = None,
+        sender: Sender = ANYBODY,
     ) -> Upload:
         """Begin an upload of `length` bytes. Raises InvalidRequest when it is too large.
 
         sha256: what the whole file will hash to, if the client knows; it is checked at the end.
-        part_of: the container it is within. owner_id: the rider who sends it, whose rides it makes;
-        None for others.
+        part_of: the container it is within.
         """
         if not 0 <= length <= self._settings.length_max:
             raise InvalidRequest(
@@ -138,7 +138,7 @@ class Uploads:
             )
         file_name = name.replace("\0", "")[:NAME_LENGTH_MAX] or "upload"
         return self._store.uploads.create(
-            file_name, length, sha256, self._settings.expires_s, part_of, owner_id
+            file_name, length, sha256, self._settings.expires_s, part_of, sender
         )
 
     def append(self, upload_id: str, offset: int, data: bytes) -> int:
@@ -178,10 +178,10 @@ class Uploads:
             self._conclude(upload.id, REJECTED, refused.code, refused.detail, 0.0)
             raise BadFile(refused.detail or "", code=refused.code)
 
-    def receive_file(self, name: str, source: bytes | Path, owner_id: int | None = None) -> Upload:
+    def receive_file(self, name: str, source: bytes | Path, sender: Sender = ANYBODY) -> Upload:
         """A whole file at once -> what became of it."""
         length = len(source) if isinstance(source, bytes) else source.stat().st_size
-        upload = self.create(name, length, owner_id=owner_id)
+        upload = self.create(name, length, sender=sender)
         offset = 0
         with (
             suppress(BadFile),
@@ -201,14 +201,14 @@ class Uploads:
         before: str | None = None,
         part_of: str | None = None,
         sha256: str | None = None,
-        owner_id: int | None = None,
+        whose: Sender = ANYBODY,
     ) -> dict[str, object]:
         """One page, the latest first: {items, next}. before: `next` of the page before.
 
         part_of: of the files within this upload, else of those that are in none. sha256: of these
-        bytes only. owner_id: sent by this rider only.
+        bytes only. whose: sent by these only.
         """
-        uploads = self._store.uploads.list(limit + 1, before, part_of, sha256, owner_id)
+        uploads = self._store.uploads.list(limit + 1, before, part_of, sha256, whose)
         more = len(uploads) > limit
         return {"items": uploads[:limit], "next": uploads[limit - 1].id if more else None}
 

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Request, Response
+from fastapi import APIRouter, Response
 from fastapi.concurrency import run_in_threadpool
 
-from backend.core.person import Permission
 from backend.imports.mapping import TableMapping
 from backend.imports.models import AnsweredTables, TableAnswerRequest, TableQuestion, Upload
-from backend.web.permissions import caller_of
 from backend.web.problem import refusals
 from backend.web.services import provided
 
@@ -28,20 +26,13 @@ def get_mapping(upload_id: str, tables: TheTableMapping) -> Any:
 
 
 @router.put("/uploads/{upload_id}/mapping", operation_id="put_mapping", response_model=Upload)
-async def put_mapping(
-    upload_id: str, body: TableAnswerRequest, tables: TheTableMapping, request: Request
-) -> Any:
+async def put_mapping(upload_id: str, body: TableAnswerRequest, tables: TheTableMapping) -> Any:
     """Says it; the file is read, as is every other that waits for the same answer.
 
-    Rides that are here already become what their file says now; names, notes and tags stay. That
-    needs the permission `change_rides`, too.
+    Rides that are here already become what their file says now; names, notes and tags stay.
     """
-    caller = caller_of(request)
-    may = caller is None or Permission.CHANGE_RIDES in caller.permissions
     values = body.model_dump(exclude={"read_again"})
-    return await run_in_threadpool(
-        tables.say, upload_id, values, read_again=body.read_again, may_change_rides=may
-    )
+    return await run_in_threadpool(tables.say, upload_id, values, read_again=body.read_again)
 
 
 @router.get("/tables", operation_id="list_tables", response_model=AnsweredTables)

@@ -227,14 +227,15 @@ def list_keys(people: PeopleOf, caller: Asking) -> ApiKeys:
 def add_key(body: ApiKeyIn, people: PeopleOf, caller: Asking) -> NewApiKey:
     """A new key. It is in this answer and nowhere else: only its hash is kept.
 
-    For oneself; for others by who manages people. Nobody gives more than they have.
+    For oneself; for others by who manages people. Nobody gives more than they have. With `bike_id`
+    it can only send files, of that bike: a rider's own.
     """
     require_session(caller)
     require_scopes_within(caller, body.scopes)
     whose = caller.person.id if body.person_id is None else body.person_id
     if whose_keys(caller) not in (None, whose):
         raise NotFound(f"There is no account {whose}.")
-    key, secret = people.keys.add(whose, body.name, set(body.scopes), body.expires_at)
+    key, secret = people.keys.add(whose, body.name, set(body.scopes), body.expires_at, body.bike_id)
     return NewApiKey(key, secret)
 
 

@@ -123,6 +123,9 @@ class AccountStore:
         def work(connection: Connection) -> None:
             account_of(connection, person_id)
             had_admin = admins(connection) > 0
+            keys = select(t.api_key.c.id).where(t.api_key.c.account_id == person_id)
+            by_key = update(t.upload).where(t.upload.c.key_id.in_(keys))
+            connection.execute(by_key.values(key_id=None))
             for table in (t.session, t.api_key):
                 connection.execute(delete(table).where(table.c.account_id == person_id))
             owner = t.bike_owner.c.account_id == person_id
@@ -296,8 +299,12 @@ class KeyStore:
         secret_sha256: str,
         now_us: int,
         expires_us: int | None,
+        bike_id: int | None = None,
     ) -> ApiKey:
-        """A new key of a person. Raises NotFound, Conflict `keys_full`, StoreError."""
+        """A new key of a person. bike_id: the one bike it is for, of a rider one of their own.
+
+        Raises NotFound, Conflict `keys_full`, StoreError.
+        """
         values = {
             "account_id": person_id,
             "name": name,
@@ -306,12 +313,13 @@ class KeyStore:
             "scopes": sorted(scopes),
             "created_us": now_us,
             "expires_us": expires_us,
+            "bike_id": bike_id,
         }
 
         def work(connection: Connection) -> ApiKey:
-            whose = select(t.account.c.id).where(t.account.c.id == person_id)
-            if connection.execute(whose).first() is None:
-                raise NotFound(f"There is no account {person_id}.")
+            person = account_of(connection, person_id)
+            if bike_id is not None:
+                require_bike(connection, bike_id, person)
             count = connection.execute(select(func.count()).select_from(t.api_key)).scalar_one()
             if count >= KEYS_MAX:
                 raise Conflict(f"There are {KEYS_MAX} keys, and no more.", "keys_full")
@@ -377,10 +385,22 @@ class KeyStore:
             self._database.submit(lambda connection: connection.execute(use).rowcount)
 
 
+def require_bike(connection: Connection, bike_id: int, person: Person) -> None:
+    """Raises NotFound where there is no such bike, or it is not this rider's."""
+    query = select(t.bike.c.id).where(t.bike.c.id == bike_id)
+    if person.role == "rider":
+        owner = t.bike_owner.c
+        theirs = select(owner.bike_id).where(owner.account_id == person.id, owner.to_us.is_(None))
+        query = query.where(t.bike.c.id.in_(theirs))
+    if connection.execute(query).first() is None:
+        raise NotFound(f"{person.name} has no bike {bike_id}.")
+
+
 def keys() -> Select[Any]:
-    """Every key with its person's name."""
-    owner = t.account.c.name.label("person_name")
-    return select(t.api_key, owner).join(t.account, t.account.c.id == t.api_key.c.account_id)
+    """Every key with the names of its person and its bike."""
+    names = (t.account.c.name.label("person_name"), t.bike.c.name.label("bike_name"))
+    joined = select(t.api_key, *names).join(t.account, t.account.c.id == t.api_key.c.account_id)
+    return joined.outerjoin(t.bike, t.bike.c.id == t.api_key.c.bike_id)
 
 
 def key_of(row: Row[Any]) -> ApiKey:
@@ -397,4 +417,6 @@ def key_of(row: Row[Any]) -> ApiKey:
         expires_at=utc_or_none(row.expires_us),
         used_at=utc_or_none(row.used_us),
         revoked_at=utc_or_none(row.revoked_us),
+        bike_id=row.bike_id,
+        bike_name=row.bike_name,
     )

@@ -116,19 +116,34 @@ class Keys:
         return self._keys.list(person_id)
 
     def add(
-        self, person_id: int, name: str, scopes: Iterable[Permission], expires_at: datetime | None
+        self,
+        person_id: int,
+        name: str,
+        scopes: Iterable[Permission],
+        expires_at: datetime | None,
+        bike_id: int | None = None,
     ) -> tuple[ApiKey, str]:
         """A new key and what a program sends, which is shown only this once.
 
-        Raises InvalidRequest, NotFound, StoreError.
+        bike_id: the one bike it sends files of. Raises InvalidRequest, NotFound, StoreError.
         """
+        if bike_id is not None and set(scopes) != {Permission.UPLOAD_FILES}:
+            message = "A key for one bike can only send files: its one scope is upload_files."
+            raise field_refusal("scopes", "only_files_of_a_bike", message)
         now_us = time.time_ns() // 1000
         expires_us = None if expires_at is None else round(expires_at.timestamp() * 1e6)
         if expires_us is not None and expires_us <= now_us:
             raise field_refusal("expires_at", "in_the_past", "This moment is over already.")
         shown, prefix, secret = new_key()
         key = self._keys.add(
-            person_id, good_name(name), scopes, prefix, token_sha256(secret), now_us, expires_us
+            person_id,
+            good_name(name),
+            scopes,
+            prefix,
+            token_sha256(secret),
+            now_us,
+            expires_us,
+            bike_id,
         )
         return key, shown
 
@@ -159,7 +174,8 @@ class Keys:
 
 def caller_by(key: ApiKey, person: Person) -> Caller:
     """Who sends a key, with what it is for and the person's role still allows."""
-    return Caller(person, ROLES[person.role] & set(key.scopes), key_id=key.id)
+    permissions = ROLES[person.role] & set(key.scopes)
+    return Caller(person, permissions, key_id=key.id, bike_id=key.bike_id)
 
 
 def good_name(name: str) -> str:

@@ -92,6 +92,9 @@ class ApiKey:
     used_at: datetime | None
     """When last, to a minute."""
     revoked_at: datetime | None
+    bike_id: int | None
+    """The one bike it is for; null for all."""
+    bike_name: str | None
 
 
 @described
@@ -110,6 +113,12 @@ class ApiKeyIn(RequestBody):
         default=None, ge=1, le=2**31 - 1, description="Whose it is; of who asks if null."
     )
     expires_at: AwareDatetime | None = Field(default=None, description="Never if null.")
+    bike_id: int | None = Field(
+        default=None,
+        ge=1,
+        le=2**63 - 1,
+        description="The one bike it sends files of, with `upload_files` as its only scope.",
+    )
 
 
 @described

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from sqlalchemy import Connection, Table, insert, select
 from sqlalchemy.dialects import postgresql, sqlite
 
+from backend.core.person import ANYBODY, Sender
 from backend.core.ride import RideContext
 from backend.core.unit_key import bike_name, identifies_unit
 from backend.store.sql import tables as t
@@ -62,21 +63,25 @@ def owner_at(connection: Connection, bike_id: int | None, at_us: int) -> int | N
 
 
 def whose_ride(
-    connection: Connection, context: RideContext, started_us: int, sender_id: int | None = None
+    connection: Connection, context: RideContext, started_us: int, sender: Sender = ANYBODY
 ) -> dict[str, int | None]:
     """The columns that say with which bike a ride was made, and whose it is: the bike's owner's
     when it began.
 
-    sender_id: the rider who sent its file. It is theirs, and of a bike only if that was theirs,
-    too: nobody adds rides to another's bike.
+    sender: of its file. What a rider sent is theirs, and of a bike only if that was theirs, too:
+    nobody adds rides to another's bike. What a key of one bike sent is of that bike, unless its
+    unit was on another one then: that one is not the key's, so the ride is of none.
     """
-    if sender_id is None:
+    if sender.owner_id is None and sender.bike_id is None:
         bike_id = bike_of_ride(connection, context, started_us)
         return {"bike_id": bike_id, "owner_id": owner_at(connection, bike_id, started_us)}
     key = context.unit_key
-    mine = None if key is None else bike_at(connection, key, started_us)
-    is_mine = mine is not None and owner_at(connection, mine, started_us) == sender_id
-    return {"bike_id": mine if is_mine else None, "owner_id": sender_id}
+    on = None if key is None else bike_at(connection, key, started_us)
+    bike_id = sender.bike_id if on is None else on
+    owner_id = owner_at(connection, bike_id, started_us)
+    if sender.bike_id not in (None, bike_id) or sender.owner_id not in (None, owner_id):
+        bike_id = owner_id = None
+    return {"bike_id": bike_id, "owner_id": sender.owner_id or owner_id}
 
 
 def bike_of_unit(

@@ -16,6 +16,7 @@ from backend.core.doubts import Doubt
 from backend.core.energy import derivable
 from backend.core.filled import Filled
 from backend.core.intake import Intake
+from backend.core.person import ANYBODY, Sender
 from backend.core.ride import (
     BAD,
     ORIGINS,
@@ -254,9 +255,8 @@ def inserted(connection: Connection, body: dict[str, object], context: RideConte
     Its unit, and the bike this is on, are made where they are not known.
     """
     started_us = int(str(body["started_us"]))
-    sender = select(t.upload.c.owner_id).where(t.upload.c.id == body.get("upload_id"))
-    sender_id = connection.execute(sender).scalar()
-    body = body | whose_ride(connection, context, started_us, sender_id)
+    sender = sender_of(connection, body.get("upload_id"))
+    body = body | whose_ride(connection, context, started_us, sender)
     # Another's recording of the same ride is not beside it: it would count in its place.
     twin = select(t.ride.c.id).where(t.ride.c.id == body.get("same_ride_as"))
     twin = twin.where(t.ride.c.owner_id.is_not_distinct_from(body["owner_id"]))
@@ -289,6 +289,13 @@ def upload_key(connection: Connection, token: str | None) -> int | None:
     if token is None:
         return None
     return connection.execute(select(t.upload.c.id).where(t.upload.c.token == token)).scalar()
+
+
+def sender_of(connection: Connection, upload_id: object) -> Sender:
+    """Who sent an upload, by its row id; anybody where it is none."""
+    columns = (t.upload.c.owner_id, t.upload.c.key_id, t.upload.c.bike_id)
+    row = connection.execute(select(*columns).where(t.upload.c.id == upload_id)).first()
+    return ANYBODY if row is None else Sender(*row)
 
 
 def upload_file(connection: Connection, token: str | None) -> dict[str, object] | None:

@@ -6,9 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from sqlalchemy import Connection, Row, func, select, union_all
+from sqlalchemy import ColumnElement, Connection, Row, func, select, true, union_all
 
 from backend.core.described import described
+from backend.core.person import Sender
 from backend.core.ride import iso_utc
 from backend.store.deletion import MADE
 from backend.store.sql import tables as t
@@ -67,6 +68,16 @@ class Upload:
     def expires_at(self) -> str | None:
         """When it goes by itself, as ISO 8601 in UTC; None when it does not."""
         return None if self.expires_us is None else iso_utc(self.expires_us)
+
+
+def sent_by(whose: Sender) -> ColumnElement[bool]:
+    """Of an upload: this rider sent it, with this key; what is None does not matter."""
+    upload = t.upload.c
+    mine: ColumnElement[bool] = true()
+    for column, number in ((upload.owner_id, whose.owner_id), (upload.key_id, whose.key_id)):
+        if number is not None:
+            mine &= column == number
+    return mine
 
 
 def uploads_of(connection: Connection, rows: Sequence[Row[Any]]) -> tuple[Upload, ...]:

@@ -14,19 +14,20 @@ import threading
 import time
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass, fields, replace
+from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
 from sqlalchemy import Connection, Select, insert, select, update
 
+from backend.core.person import ANYBODY, Sender
 from backend.errors import BadFile, Conflict, NotFound, StoreError
 from backend.store.deletion import MADE, RELATED, Deletions, forget_upload, join_source
 from backend.store.objects import Objects, content_key, file_sha256
-from backend.store.ride_table import upload_key
+from backend.store.ride_table import sender_of, upload_key
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database
-from backend.store.upload_rows import REJECTED, Upload, uploads_of
+from backend.store.upload_rows import REJECTED, Upload, sent_by, uploads_of
 
 RECEIVING = "receiving"
 TOKEN = re.compile(r"[0-9a-f]{32}")
@@ -75,11 +76,11 @@ class UploadStore:
         declared_sha256: str | None,
         expires_s: int,
         part_of: str | None = None,
-        owner_id: int | None = None,
+        sender: Sender = ANYBODY,
     ) -> Upload:
         """Begin an upload of `size` bytes; nothing has arrived yet, and all must in `expires_s`.
 
-        owner_id: the rider who sends it; of what is in a container, who sent that.
+        sender: who sends it; of what is in a container, who sent that.
         Raises Conflict `uploads_full` where too many have begun and not arrived.
         """
         if part_of is None and sum(1 for _ in self._spool.iterdir()) >= UNFINISHED_MAX:
@@ -108,9 +109,8 @@ class UploadStore:
 
         def work(connection: Connection) -> None:
             container = upload_key(connection, part_of)
-            sender = select(t.upload.c.owner_id).where(t.upload.c.id == container)
-            whose = owner_id if container is None else connection.execute(sender).scalar()
-            more = {"part_of": container, "owner_id": whose}
+            whose = sender if container is None else sender_of(connection, container)
+            more = {"part_of": container, **asdict(whose)}
             connection.execute(insert(t.upload).values(values | more))
 
         self._database.write(work)
@@ -350,23 +350,23 @@ class UploadStore:
         before: str | None = None,
         part_of: str | None = None,
         sha256: str | None = None,
-        owner_id: int | None = None,
+        whose: Sender = ANYBODY,
     ) -> tuple[Upload, ...]:
         """Uploads, the latest first, from the one before `before` on. Raises NotFound.
 
-        part_of: those within this one, else those within none. sha256: of these bytes only.
-        owner_id: sent by this rider only.
+        part_of: those within this one, else those within none. sha256: of these bytes only, also
+        those of which they are declared and arrive still. whose: sent by these only.
         """
         query = select(t.upload).order_by(t.upload.c.id.desc()).limit(limit)
+        query = query.where(sent_by(whose))
         if part_of is not None:
             container = self._database.read(lambda c: upload_key(c, part_of))
             query = query.where(t.upload.c.part_of == container)
         elif sha256 is None:
             query = query.where(t.upload.c.part_of.is_(None))
         if sha256 is not None:
-            query = query.where(t.upload.c.sha256 == sha256)
-        if owner_id is not None:
-            query = query.where(t.upload.c.owner_id == owner_id)
+            arrives = (t.upload.c.state == RECEIVING) & (t.upload.c.declared_sha256 == sha256)
+            query = query.where((t.upload.c.sha256 == sha256) | arrives)
         if before is not None:
             last = select(t.upload.c.id).where(t.upload.c.token == before)
             key = self._database.read(lambda c: c.execute(last).scalar())

@@ -15,7 +15,7 @@ from fastapi import Depends
 from fastapi.concurrency import run_in_threadpool
 from fastapi.requests import HTTPConnection
 
-from backend.core.person import Caller, Permission
+from backend.core.person import ANYBODY, Caller, Permission, Sender
 from backend.errors import NotAllowed, NotFound, NotSignedIn
 
 SIGN_IN_FIRST = (
@@ -34,7 +34,8 @@ class Anyone(StrEnum):
 class Own(StrEnum):
     """How an operation keeps to what is the caller's own.
 
-    ADDRESSED: what its address names has to be theirs. NARROWED: its route asks `OwnerId`.
+    ADDRESSED: what its address names has to be theirs. NARROWED: its route asks `OwnerId`,
+    `SenderOf` or `WhoseFiles`.
     """
 
     ADDRESSED = "addressed"
@@ -44,7 +45,7 @@ class Own(StrEnum):
 class Ownership(Protocol):
     """Who knows what is whose."""
 
-    def is_own(self, owner_id: int, kind: str, name: str) -> bool: ...
+    def is_own(self, whose: Sender, kind: str, name: str) -> bool: ...
 
 
 def operation_of(connection: HTTPConnection) -> str:
@@ -70,7 +71,21 @@ def owner_of(connection: HTTPConnection) -> int | None:
     return None if caller is None else caller.owner_id
 
 
+def sender_of(connection: HTTPConnection) -> Sender:
+    """As whose a file arrives that this request sends."""
+    caller = caller_of(connection)
+    return ANYBODY if caller is None else caller.sender
+
+
+def whose_files(connection: HTTPConnection) -> Sender:
+    """Whose files alone an answer may be of."""
+    caller = caller_of(connection)
+    return ANYBODY if caller is None else caller.whose_files
+
+
 OwnerId = Annotated[int | None, Depends(owner_of)]
+SenderOf = Annotated[Sender, Depends(sender_of)]
+WhoseFiles = Annotated[Sender, Depends(whose_files)]
 
 
 async def require_permission(connection: HTTPConnection) -> None:
@@ -90,11 +105,12 @@ async def require_permission(connection: HTTPConnection) -> None:
         raise NotSignedIn(SIGN_IN_FIRST)
     if needed is not Anyone.SIGNED_IN and needed not in caller.permissions:
         raise NotAllowed(f"This needs the permission `{needed}`, which you do not have.")
-    if caller.owner_id is not None and needed not in (Anyone.SIGNED_IN, Permission.COMPUTE):
-        await require_own(connection, operation, caller.owner_id)
+    whose = caller.whose_files if needed is Permission.UPLOAD_FILES else Sender(caller.owner_id)
+    if whose != ANYBODY and needed not in (Anyone.SIGNED_IN, Permission.COMPUTE):
+        await require_own(connection, operation, whose)
 
 
-async def require_own(connection: HTTPConnection, operation: str, owner_id: int) -> None:
+async def require_own(connection: HTTPConnection, operation: str, whose: Sender) -> None:
     """Raises NotAllowed for an operation that is not for who has only their own; NotFound for what
     is not theirs, as if it were not there."""
     kept: Own | None = connection.app.state.own.get(operation)
@@ -105,8 +121,6 @@ async def require_own(connection: HTTPConnection, operation: str, owner_id: int)
     ownership: Ownership | None = connection.app.state.ownership
     names: Mapping[str, str] = connection.path_params
     for kind, name in names.items():
-        own = ownership is not None and await run_in_threadpool(
-            ownership.is_own, owner_id, kind, name
-        )
+        own = ownership is not None and await run_in_threadpool(ownership.is_own, whose, kind, name)
         if not own:
             raise NotFound(f"There is no {kind.removesuffix('_id')} {name}.")

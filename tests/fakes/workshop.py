@@ -47,6 +47,12 @@ class Workshop:
         code = self.ask("Ben", "POST", f"/bikes/{bike_id}/pairing", json=body)["code"]
         self.ask(who, "POST", f"/pairings/{code}")
 
+    def old_bike(self, who: str) -> int:
+        """A bike that has been somebody's for longer than any file here is old."""
+        bike = self.ask("Ben", "POST", "/bikes", json={"name": "rental"})["bike"]["id"]
+        self.pair(bike, who, owned_from="2000-01-01T00:00:00Z")
+        return int(bike)
+
     def send(self, who: str, name: str, content: bytes) -> dict[str, Any]:
         """What became of a file that somebody sent."""
         answer: dict[str, Any] = self.ask(

@@ -62,7 +62,7 @@ def test_a_workshop_opens_its_server_to_the_network(tmp_path: Path) -> None:
         name: browser.post("/api/v1/keys", json={"name": name, "scopes": scopes}).json()["secret"]
         for name, scopes in {
             "shell": ["see_bikes", "see_library", "change_library"],
-            "field": ["upload"],
+            "field": ["upload_files"],
         }.items()
     }
     after = browser.post(LIBRARY, json=preset("after"), headers={"spindle-author": "Mallory"})

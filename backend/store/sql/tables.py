@@ -240,9 +240,12 @@ upload = Table(
     # Of a table that is not read before somebody says more: the hash of its header.
     Column("asks_sha256", String(64)),
     # The rider who sent it; null for others, who send anybody's. answer: what a rider said of a
-    # table; of others it is kept for all its like.
+    # table; of others it is kept for all its like. key_id: the key it was sent with; bike_id: the
+    # one bike which that key was for.
     Column("owner_id", KEY, index=True),
     Column("answer", JSON(none_as_null=True)),
+    Column("key_id", KEY, index=True),
+    Column("bike_id", KEY),
 )
 
 ride = Table(
@@ -452,4 +455,6 @@ api_key = Table(
     Column("expires_us", BigInteger),
     Column("used_us", BigInteger),
     Column("revoked_us", BigInteger),
+    # The one bike whose files it sends.
+    Column("bike_id", KEY, index=True),
 )

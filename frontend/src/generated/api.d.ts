@@ -233,7 +233,8 @@ export interface paths {
          * Add Key
          * @description A new key. It is in this answer and nowhere else: only its hash is kept.
          *
-         *     For oneself; for others by who manages people. Nobody gives more than they have.
+         *     For oneself; for others by who manages people. Nobody gives more than they have. With `bike_id`
+         *     it can only send files, of that bike: a rider's own.
          */
         post: operations["add_key"];
         delete?: never;
@@ -2285,7 +2286,10 @@ export interface paths {
          * @description Every file that came, the latest first: also those that were refused and can be removed.
          *
          *     Those within a container are listed with `part_of`, its upload. With `sha256` only files of
-         *     these bytes: whether one is here already is known before it is sent.
+         *     these bytes: whether one is here already is known before it is sent, and one of which they are
+         *     declared goes on where it stands.
+         *
+         *     A key that sees no rides is shown what it sent itself.
          */
         get: operations["list_uploads"];
         put?: never;
@@ -2363,8 +2367,7 @@ export interface paths {
          * Put Mapping
          * @description Says it; the file is read, as is every other that waits for the same answer.
          *
-         *     Rides that are here already become what their file says now; names, notes and tags stay. That
-         *     needs the permission `change_rides`, too.
+         *     Rides that are here already become what their file says now; names, notes and tags stay.
          */
         put: operations["put_mapping"];
         post?: never;
@@ -2559,6 +2562,13 @@ export interface components {
             used_at: string | null;
             /** Revoked At */
             revoked_at: string | null;
+            /**
+             * Bike Id
+             * @description The one bike it is for; null for all.
+             */
+            bike_id: number | null;
+            /** Bike Name */
+            bike_name: string | null;
         };
         /** ApiKeyIn */
         ApiKeyIn: {
@@ -2579,6 +2589,11 @@ export interface components {
              * @description Never if null.
              */
             expires_at?: string | null;
+            /**
+             * Bike Id
+             * @description The one bike it sends files of, with `upload_files` as its only scope.
+             */
+            bike_id?: number | null;
         };
         /** ApiKeys */
         ApiKeys: {
@@ -6294,7 +6309,7 @@ export interface components {
          * @description One thing that may be allowed.
          * @enum {string}
          */
-        Permission: "compute" | "see_bikes" | "change_bikes" | "calibrate" | "see_register" | "change_register" | "see_rides" | "change_rides" | "upload" | "see_library" | "change_library" | "simulate" | "see_server" | "back_up" | "manage_people";
+        Permission: "compute" | "see_bikes" | "change_bikes" | "calibrate" | "see_register" | "change_register" | "see_rides" | "change_rides" | "upload_files" | "see_library" | "change_library" | "simulate" | "see_server" | "back_up" | "manage_people";
         /**
          * Person
          * @description An account.

@@ -104,6 +104,18 @@ def test_what_the_server_knows_by_its_hash_is_not_sent(tmp_path: Path) -> None:
     assert (verdict["duplicate_of"], desk.files) == (7, [])
 
 
+def test_what_another_run_began_goes_on_where_it_stood(tmp_path: Path) -> None:
+    desk = Desk()
+    desk.files = [{"told": {}, "data": DATA[:1_000_000], "length": str(len(DATA))}]
+    begun = {"id": "1", "state": "receiving", "length": len(DATA), "received": 1_000_000}
+    desk.known = [begun | {"ride_ids": [], "parts": None}]
+
+    verdict = desk.sender.send(written(tmp_path, "ride.fit"))
+
+    assert verdict["state"] == "complete"
+    assert [file["data"] for file in desk.files] == [DATA]
+
+
 def test_what_is_refused_by_its_first_part_is_not_sent_on(tmp_path: Path) -> None:
     desk = Desk()
 

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from backend.core.person import Sender
 from backend.errors import Conflict, InvalidRequest, NotFound
 from backend.formats.outcome import Outcome
 from backend.formats.questions import TableAnswer
@@ -95,14 +96,14 @@ def test_what_a_rider_says_is_for_the_files_they_send(
     store: Store, uploads: Uploads, mapping: TableMapping
 ) -> None:
     hers, his = ((f"{day}.csv", table(day)) for day in (1, 2))
-    rita, olaf, workshop = 4, 5, None
+    rita, olaf = Sender(owner_id=4), Sender(owner_id=5)
     asked = [uploads.receive_file(*hers, rita), uploads.receive_file(*his, olaf)]
-    asked.append(uploads.receive_file(*hers, workshop))
+    asked.append(uploads.receive_file(*hers))
 
     became = mapping.say(asked[0].id, SAID)
 
     assert became.state == "complete"
-    assert store.rides.get(became.ride_ids[0]).owner_id == rita
+    assert store.rides.get(became.ride_ids[0]).owner_id == rita.owner_id
     uploads.recover()
     assert [uploads.get(one.id).code for one in asked[1:]] == ["needs_mapping"] * 2
     assert uploads.receive_file("3.csv", table(3), rita).state == "complete"

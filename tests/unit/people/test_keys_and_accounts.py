@@ -12,7 +12,7 @@ from tests.fakes.house import ORIGIN, PASSWORD, House, bearer, new_key
 
 
 def test_a_key_does_what_it_is_for_and_no_more(house: House) -> None:
-    _, secret = new_key(house, "upload")
+    _, secret = new_key(house, "upload_files")
     client = house.client()
 
     upload = client.options("/api/v1/uploads", headers=bearer(secret))
@@ -57,8 +57,8 @@ def test_a_key_gives_nobody_a_way_in_and_no_more_than_it_has(
 
 def test_everybody_makes_and_revokes_keys_of_their_own(house: House) -> None:
     dealer, rider = house.client("dealer"), house.client("rider")
-    others, _ = new_key(house, "upload")
-    mine = {"name": "workshop", "scopes": ["upload"]}
+    others, _ = new_key(house, "upload_files")
+    mine = {"name": "workshop", "scopes": ["upload_files"]}
     own = dealer.post("/api/v1/keys", json=mine, headers=ORIGIN).json()["key"]
     too_much = dealer.post("/api/v1/keys", json=mine | {"scopes": ["back_up"]}, headers=ORIGIN)
     whose = {"person_id": own["person_id"] + 1000}
@@ -79,7 +79,7 @@ def test_an_account_is_renamed_and_removed(house: House, admin: TestClient) -> N
     hers = house.client()
     hers.post("/api/v1/sign-in", json={"name": "Hannah", "password": PASSWORD})
     secret = hers.post(
-        "/api/v1/keys", json={"name": "hers", "scopes": ["upload"]}, headers=ORIGIN
+        "/api/v1/keys", json={"name": "hers", "scopes": ["upload_files"]}, headers=ORIGIN
     ).json()["secret"]
     where = f"/api/v1/people/{number}"
 
@@ -100,7 +100,7 @@ def test_an_account_is_renamed_and_removed(house: House, admin: TestClient) -> N
 
 
 def test_a_key_is_shown_once_and_noted_when_used(house: House, admin: TestClient) -> None:
-    number, secret = new_key(house, "upload")
+    number, secret = new_key(house, "upload_files")
     house.client().get("/api/v1/session", headers=bearer(secret))
 
     told = admin.get("/api/v1/keys")
@@ -116,7 +116,7 @@ def test_a_revoked_an_expired_and_a_damaged_key_open_nothing(
     number, secret = new_key(house, "see_rides")
     assert house.client().get("/api/v1/tables", headers=bearer(secret)).status_code != 401
     admin.delete(f"/api/v1/keys/{number}", headers=ORIGIN)
-    past = {"name": "late", "scopes": ["upload"], "expires_at": "2020-01-01T00:00:00Z"}
+    past = {"name": "late", "scopes": ["upload_files"], "expires_at": "2020-01-01T00:00:00Z"}
 
     for wrong in (secret, secret[:-1] + "0", secret[:-1], "sp_", "x", ""):
         answer = house.client("admin").get("/api/v1/tables", headers=bearer(wrong))
@@ -132,7 +132,7 @@ def test_a_person_who_is_disabled_is_out_with_their_keys(house: House, admin: Te
     number = frieda.post("/api/v1/sign-in", json={"name": "Frieda", "password": PASSWORD}).json()[
         "id"
     ]
-    body = {"name": "hers", "scopes": ["upload"], "person_id": number}
+    body = {"name": "hers", "scopes": ["upload_files"], "person_id": number}
     secret = admin.post("/api/v1/keys", json=body, headers=ORIGIN).json()["secret"]
 
     admin.patch(f"/api/v1/people/{number}", json={"enabled": False}, headers=ORIGIN)

@@ -118,7 +118,7 @@ def test_a_disabled_person_s_sessions_and_keys_end_at_once(records: Records) -> 
     signed_in(records, bruno.id, token)
     _, prefix, secret = new_key()
     records.keys.add(
-        bruno.id, "field", [Permission.UPLOAD], prefix, token_sha256(secret), NOW_US, None
+        bruno.id, "field", [Permission.UPLOAD_FILES], prefix, token_sha256(secret), NOW_US, None
     )
     assert records.keys.of_prefix(prefix, NOW_US) is not None
 
@@ -142,7 +142,7 @@ def test_one_person_has_so_many_browsers_and_no_more(records: Records) -> None:
 def test_a_key_is_over_at_its_end_and_when_it_is_revoked(records: Records) -> None:
     anna = records.accounts.add("Anna", "admin", "hash")
     ends_us = NOW_US + HOUR_US
-    scopes = [Permission.UPLOAD]
+    scopes = [Permission.UPLOAD_FILES]
     first = records.keys.add(anna.id, "one", scopes, "aaaaaaaa", token_sha256("s"), NOW_US, ends_us)
     second = records.keys.add(anna.id, "two", scopes, "bbbbbbbb", token_sha256("s"), NOW_US, None)
 
@@ -167,7 +167,7 @@ def test_the_file_holds_neither_password_nor_token_nor_secret(tmp_path: Path) ->
         anna = records.accounts.add("Anna", "admin", hashed)
         assert records.sessions.open(anna.id, hashed, token_sha256(token), NOW_US)
         records.keys.add(
-            anna.id, "k", [Permission.UPLOAD], prefix, token_sha256(secret), NOW_US, None
+            anna.id, "k", [Permission.UPLOAD_FILES], prefix, token_sha256(secret), NOW_US, None
         )
 
     with sqlite3.connect(database) as connection:
