@@ -78,8 +78,9 @@ from backend.units.inspection import Inspection
 from backend.units.last_seen import LastSeen
 from backend.units.memory import UnitMemory
 from backend.units.records import UnitStore
-from backend.units.service import Devices
+from backend.units.service import Devices, Watcher
 from backend.units.watch import Watch
+from backend.visits.unit_checks import CheckUnit
 from backend.web.app import WebSettings
 from backend.web.connections import PatientProtocol
 from backend.web.safety import AllowedHosts
@@ -124,8 +125,7 @@ def open_services(
         # Closes before those who wait for a file to be read.
         closing.callback(uploads.close)
         dashboards, recent = Dashboards(), RecentRows()
-        for watcher in (memory.follow, recorder.watch, dashboards.follow, recent.follow):
-            devices.watch(watcher)
+        follow(devices, memory.follow, recorder.watch, dashboards.follow, recent.follow)
         closing.enter_context(upkeep(recorder, uploads, store, last_seen, devices, cards))
         open_units(settings, devices)
         library, inspection = Library(LibraryStore(store.database)), Inspection(devices)
@@ -155,7 +155,8 @@ def open_services(
             proposals=proposals,
             use_of_table=UseOfTable(store, memory.ride_config, devices.unit_at),
             since_change=RidesSinceChange(store, tuning.revisions),
-            sensor_drift=SensorDriftService(store, devices.last_known_key, tuning.revisions),
+            sensor_drift=make_drift(store, devices, tuning),
+            check_unit=make_checks(store, devices, inspection, tuning),
             why_steady=WhySteady(devices.writable),
             why_ride=WhyRide(store, memory.ride_config),
             ledger=EnergyLedger(store, memory.ride_config),
@@ -208,10 +209,28 @@ def make_devices(
     return devices
 
 
+def follow(devices: Devices, *watchers: Watcher) -> None:
+    """Says to each what becomes of every unit."""
+    for watcher in watchers:
+        devices.watch(watcher)
+
+
 def open_units(settings: Settings, devices: Devices) -> None:
     """Begins to open the units that the settings name; one that is slow keeps nobody waiting."""
     for url in settings.device:
         in_background(url, partial(devices.add, url))
+
+
+def make_drift(store: Store, devices: Devices, tuning: Tuning) -> SensorDriftService:
+    """What a unit's rides show of its sensor's zero."""
+    return SensorDriftService(store, devices.last_known_key, tuning.revisions)
+
+
+def make_checks(
+    store: Store, devices: Devices, inspection: Inspection, tuning: Tuning
+) -> CheckUnit:
+    """The checks of a unit."""
+    return CheckUnit(devices, inspection, tuning, make_drift(store, devices, tuning))
 
 
 def make_calibrations(

@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from backend.units.inspection import Inspection
     from backend.units.service import Devices
     from backend.units.watch import Watch
+    from backend.visits.unit_checks import CheckUnit
 
 
 @dataclass(frozen=True)
@@ -49,6 +50,7 @@ class Services:
     store: StoreService
     devices: Devices
     inspection: Inspection
+    check_unit: CheckUnit
     fault_moments: FaultMoments
     watch: Watch
     dashboards: Dashboards

@@ -63,6 +63,10 @@ def test_a_drift_is_seen_calibrated_and_gone(server: SpindleServer) -> None:
     assert far["latest"]["temperature_degc"] == pytest.approx(20.0, abs=1.0)
     assert far["no_trend"] == "few_rides"
 
+    checks = {one["name"]: one for one in server.get(f"/devices/{device}/checks")["checks"]}
+    assert (checks["drift"]["passed"], checks["drift"]["value"]) == (False, zeros_nm[2])
+    assert [checks[name]["passed"] for name in ("battery", "motor", "flash", "line")] == [True] * 4
+
     offset = {"sensor_offset_counts": round(far["latest"]["zero_counts"], 1)}
     body = {"parameters": offset, "reason": "zero had moved"}
     server.ask("PATCH", f"/devices/{device}/config", json=body)

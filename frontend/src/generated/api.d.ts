@@ -420,6 +420,27 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/devices/{device_id}/checks": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Check Unit
+         * @description What can be checked of a unit without touching it, done now: what was found, what is allowed,
+         *     and whether it passed.
+         */
+        get: operations["check_unit"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/calibration/evaluate": {
         parameters: {
             query?: never;
@@ -9126,6 +9147,69 @@ export interface components {
             /** Range */
             range: number;
         };
+        /**
+         * UnitCheck
+         * @description One check. Numbers are in `unit`; what is null is not known or does not apply.
+         */
+        UnitCheck: {
+            /**
+             * Name
+             * @enum {string}
+             */
+            name: "zero" | "drift" | "rotor" | "battery" | "motor" | "controller" | "flash" | "line";
+            /**
+             * Passed
+             * @description Null: not done; `not_done` says why.
+             */
+            passed: boolean | null;
+            /** Value */
+            value: number | null;
+            /** Unit */
+            unit: string | null;
+            /**
+             * Limit
+             * @description It passes up to here; a battery's voltage from here on.
+             */
+            limit: number | null;
+            /** Not Done */
+            not_done: ("no_reading" | "not_sent" | "moving" | "no_ride_shows_it" | "not_known") | null;
+            /**
+             * Fault
+             * @description What the unit itself calls faulty: then it has failed, whatever it reads.
+             */
+            fault: string | null;
+            /**
+             * Evidence
+             * @description What else was seen: of `drift` the ride, how many show the zero, the trend a month and the
+             *     level; of `flash` its erases and places; of `line` frames built and lost.
+             */
+            evidence: {
+                [key: string]: unknown;
+            } | null;
+        };
+        /**
+         * UnitChecks
+         * @description What was found, and the readings it was found by.
+         */
+        UnitChecks: {
+            /** Unit Key */
+            unit_key: string | null;
+            /**
+             * Checked At
+             * Format: date-time
+             */
+            checked_at: string;
+            /** Checks */
+            checks: components["schemas"]["UnitCheck"][];
+            /** Channels */
+            channels: {
+                [key: string]: number | null;
+            };
+            /** Faults Active */
+            faults_active: string[];
+            /** @description Null for a unit of another make, which does not count. */
+            wear: components["schemas"]["WearCounters"] | null;
+        };
         /** UnitComparison */
         UnitComparison: {
             /** Device Id */
@@ -11542,6 +11626,82 @@ export interface operations {
             };
             /** @description Too Many Requests */
             429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    check_unit: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                device_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["UnitChecks"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Gateway Timeout */
+            504: {
                 headers: {
                     [name: string]: unknown;
                 };

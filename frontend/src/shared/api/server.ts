@@ -61,7 +61,7 @@ import type {
   TorqueSurfaceRequest,
   Track,
   UnitLogs,
-  WearCounters,
+  UnitChecks,
   Why,
   WhyRequest,
 } from './types'
@@ -216,8 +216,9 @@ export class Server {
   }
 
   /** How far and how long the unit ran, and how its flash is. */
-  wear(id: string): Promise<WearCounters> {
-    return body(this.http.GET('/api/v1/devices/{device_id}/service', this.unit(id)))
+  /** What can be checked of a unit without touching it, done now. */
+  checks(id: string): Promise<UnitChecks> {
+    return body(this.http.GET('/api/v1/devices/{device_id}/checks', this.unit(id)))
   }
 
   /** The rides in the unit's own flash. */

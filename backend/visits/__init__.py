@@ -1,0 +1,1 @@
+"""Service visits: what a workshop found, did and changed on a bike."""
