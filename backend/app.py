@@ -52,9 +52,9 @@ OPERATIONS: dict[Permission | Anyone, str] = {
     P.BACK_UP: "get_backup",
     P.MANAGE_PEOPLE: "list_people add_person change_person remove_person",
     P.SEE_BIKES: "list_devices get_device get_snapshot get_service get_dashboard list_faults "
-    "check_unit moment_of_fault get_simulation list_logs get_log_download list_parameters "
-    "get_config get_last_known list_revisions since_revision why_of_device get_trial_values "
-    "get_part list_calibrations get_calibration_job get_calibration_reading "
+    "check_unit get_support_file moment_of_fault get_simulation list_logs get_log_download "
+    "list_parameters get_config get_last_known list_revisions since_revision why_of_device "
+    "get_trial_values get_part list_calibrations get_calibration_job get_calibration_reading "
     "get_calibration_certificate get_calibration_certificate_pdf sensor_drift prove_limits live",
     P.CHANGE_BIKES: "add_device remove_device clear_faults mark_moment erase_log "
     "start_log_download patch_config confirm_config rollback_config set_trial_values "

@@ -80,7 +80,7 @@ from backend.units.memory import UnitMemory
 from backend.units.records import UnitStore
 from backend.units.service import Devices, Watcher
 from backend.units.watch import Watch
-from backend.visits.unit_checks import CheckUnit
+from backend.visits.service import Workbench
 from backend.web.app import WebSettings
 from backend.web.connections import PatientProtocol
 from backend.web.safety import AllowedHosts
@@ -156,7 +156,7 @@ def open_services(
             use_of_table=UseOfTable(store, memory.ride_config, devices.unit_at),
             since_change=RidesSinceChange(store, tuning.revisions),
             sensor_drift=make_drift(store, devices, tuning),
-            check_unit=make_checks(store, devices, inspection, tuning),
+            workbench=make_workbench(store, devices, inspection, tuning),
             why_steady=WhySteady(devices.writable),
             why_ride=WhyRide(store, memory.ride_config),
             ledger=EnergyLedger(store, memory.ride_config),
@@ -226,11 +226,12 @@ def make_drift(store: Store, devices: Devices, tuning: Tuning) -> SensorDriftSer
     return SensorDriftService(store, devices.last_known_key, tuning.revisions)
 
 
-def make_checks(
+def make_workbench(
     store: Store, devices: Devices, inspection: Inspection, tuning: Tuning
-) -> CheckUnit:
-    """The checks of a unit."""
-    return CheckUnit(devices, inspection, tuning, make_drift(store, devices, tuning))
+) -> Workbench:
+    """What a workshop looks at of a unit."""
+    drift = make_drift(store, devices, tuning)
+    return Workbench(devices, inspection, tuning, drift, __version__)
 
 
 def make_calibrations(

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from backend.units.inspection import Inspection
     from backend.units.service import Devices
     from backend.units.watch import Watch
-    from backend.visits.unit_checks import CheckUnit
+    from backend.visits.service import Workbench
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class Services:
     store: StoreService
     devices: Devices
     inspection: Inspection
-    check_unit: CheckUnit
+    workbench: Workbench
     fault_moments: FaultMoments
     watch: Watch
     dashboards: Dashboards

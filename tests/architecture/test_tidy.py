@@ -35,13 +35,13 @@ LINES_MAX = {
     "backend/store": 7_680,
     "backend/tuning": 3_500,
     "backend/units": 2_250,
-    "backend/visits": 260,
+    "backend/visits": 360,
     "backend/web": 1_620,
     "firmware_protocol": 4_450,
     "frontend": 46_720,
     "sim_device": 21_150,
     "spindle": 700,
-    "tests": 72_550,
+    "tests": 72_600,
     "tools": 4_800,
 }
 """Lines of written code a room may have. A commit lowers a budget with what it removes; one that

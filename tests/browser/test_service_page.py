@@ -43,6 +43,9 @@ def test_two_of_the_history_are_compared_and_parts_of_one_restored(
     checks = page.get_by_test_id("checks")
     expect(checks).to_contain_text("Battery voltage")
     expect(checks.locator("tbody .passed")).to_have_count(7)
+    with page.expect_download() as support:
+        page.get_by_role("button", name="File for support").click()
+    assert json.loads(support.value.path().read_text())["format"] == "spindle-support"
     against = page.get_by_test_id("against")
     expect(against).to_contain_text("150 ms")
     name = f"Compare from here: A, generation {before['generation']}"

@@ -441,6 +441,27 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/devices/{device_id}/support": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Support File
+         * @description What a unit says of itself, for who helps from afar; also of one that is away. No names, no
+         *     addresses, no rides.
+         */
+        get: operations["get_support_file"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/calibration/evaluate": {
         parameters: {
             query?: never;
@@ -8641,6 +8662,80 @@ export interface components {
              */
             at: string;
         };
+        /**
+         * SupportFile
+         * @description A unit as it says it is; null is what it could not say now.
+         */
+        SupportFile: {
+            /** Format */
+            format: string;
+            /** Version */
+            version: number;
+            /** Spindle Version */
+            spindle_version: string;
+            /**
+             * Made At
+             * Format: date-time
+             */
+            made_at: string;
+            /** Left Out */
+            left_out: string[];
+            /** Family */
+            family: string;
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "connecting" | "ready" | "read_only" | "lost" | "closed";
+            /** Reason Code */
+            reason_code: string;
+            /** Capabilities */
+            capabilities: components["schemas"]["Capability"][];
+            identity: components["schemas"]["Identity"] | null;
+            config: components["schemas"]["ConfigStamp"] | null;
+            /** Link */
+            link: {
+                [key: string]: number | null;
+            };
+            /** Faults */
+            faults: components["schemas"]["Fault"][];
+            checks: components["schemas"]["UnitChecks"] | null;
+            /**
+             * Parameters
+             * @description By name, as last read.
+             */
+            parameters: {
+                [key: string]: unknown;
+            } | null;
+            /**
+             * Revisions
+             * @description Newest first.
+             */
+            revisions: components["schemas"]["SupportRevision"][];
+        };
+        /**
+         * SupportRevision
+         * @description A configuration that the unit had, without who gave it and why.
+         */
+        SupportRevision: {
+            /** Seq */
+            seq: number;
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /** State */
+            state: string;
+            /** Generation */
+            generation: number | null;
+            /** Crc32 */
+            crc32: number | null;
+            /** Changed */
+            changed: {
+                [key: string]: unknown;
+            }[];
+        };
         /** Surface */
         Surface: {
             /**
@@ -9192,8 +9287,6 @@ export interface components {
          * @description What was found, and the readings it was found by.
          */
         UnitChecks: {
-            /** Unit Key */
-            unit_key: string | null;
             /**
              * Checked At
              * Format: date-time
@@ -11653,6 +11746,82 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["UnitChecks"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Gateway Timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_support_file: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                device_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SupportFile"];
                 };
             };
             /** @description Unauthorized */

@@ -1,5 +1,5 @@
 /* Goal: each check stands on the sheet with what was found, also where it could not be done. */
-import type { UnitCheck } from '$shared/api/types'
+import type { UnitCheck } from '$shared/api/workbench_server'
 import type { Units } from '$shared/units/units.svelte'
 import { expect, it } from 'vitest'
 import en from '$messages/en/service.json'

@@ -1,5 +1,5 @@
 // The checks of a unit in words: found, allowed.
-import type { UnitCheck } from '$shared/api/types'
+import type { UnitCheck } from '$shared/api/workbench_server'
 import type { Units } from '$shared/units/units.svelte'
 import type { Key, Say } from './words'
 

@@ -2,6 +2,9 @@
 // `diff` and the library read it.
 import type { Config, Device, Parameter } from '$shared/api/types'
 
+/** A unit's name as a part of a file's name. */
+export const fileName = (name: string) => name.replaceAll(/[^\w-]+/g, '-')
+
 /** Name and text of the file. */
 export function backupOf(
   device: Device,
@@ -25,6 +28,6 @@ export function backupOf(
     generation: config.generation,
     crc32: config.crc32,
   }
-  const file = `spindle-${name.replaceAll(/[^\w-]+/g, '-')}-generation-${config.generation}.json`
+  const file = `spindle-${fileName(name)}-generation-${config.generation}.json`
   return { file, text: `${JSON.stringify(saved, null, 2)}\n` }
 }

@@ -61,7 +61,6 @@ import type {
   TorqueSurfaceRequest,
   Track,
   UnitLogs,
-  UnitChecks,
   Why,
   WhyRequest,
 } from './types'
@@ -216,11 +215,6 @@ export class Server {
   }
 
   /** How far and how long the unit ran, and how its flash is. */
-  /** What can be checked of a unit without touching it, done now. */
-  checks(id: string): Promise<UnitChecks> {
-    return body(this.http.GET('/api/v1/devices/{device_id}/checks', this.unit(id)))
-  }
-
   /** The rides in the unit's own flash. */
   unitLogs(id: string): Promise<UnitLogs> {
     return body(this.http.GET('/api/v1/devices/{device_id}/logs', this.unit(id)))
