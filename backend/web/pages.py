@@ -117,7 +117,8 @@ class RootPath:
                     headers["location"] = self.root_path + address
             await send(message)
 
-        inside = {**scope, "path": self._inside(scope["path"])}
+        # Of links that answers make; routes do not look at it.
+        inside = {**scope, "path": self._inside(scope["path"]), "app_root_path": self.root_path}
         if scope.get("raw_path") is not None:
             inside["raw_path"] = self._inside(scope["raw_path"].decode("latin-1")).encode("latin-1")
         await self.app(inside, receive, send_with_address)

@@ -32,6 +32,10 @@ def client(tmp_path: Path) -> TestClient:
         response.headers["location"] = "/api/v1/things/7"
         return {"path": request.url.path}
 
+    @app.get("/api/v1/link")
+    async def link(request: Request) -> str:
+        return str(request.base_url)
+
     @app.post("/api/v1/elsewhere")
     async def elsewhere(response: Response) -> None:
         response.headers["location"] = "https://other.example/7"
@@ -56,6 +60,7 @@ def test_both_kinds_of_proxies_get_everything(client: TestClient, taken_off: boo
     assert answer.json() == {"path": "/api/v1/things"}
     assert answer.headers["location"] == "/spindle/api/v1/things/7"
     assert client.post(f"{at}/api/v1/elsewhere").headers["location"] == "https://other.example/7"
+    assert client.get(f"{at}/api/v1/link").json() == "http://testserver/spindle/"
     assert client.get(f"{at}/assets/app-1a2b.js").text == "export {}"
     for page in ("/", "/rides/7", "/tune"):
         entry = client.get(f"{at}{page}", headers=accept)
