@@ -43,7 +43,7 @@ OPERATIONS: dict[Permission | Anyone, str] = {
     Anyone.STRANGER: "get_not_built get_healthz get_readyz get_session sign_in make_first_person "
     "get_pairing join_by_pairing",
     Anyone.SIGNED_IN: "sign_out change_own_password give_ticket list_keys add_key revoke_key "
-    "take_pairing get_description get_docs",
+    "take_pairing get_addresses get_description get_docs",
     P.COMPUTE: "compute_surface compute_points compute_torque_surface compute_mode_curves "
     "lint_table why_steady evaluate_calibration read_fis list_scenarios",
     P.SEE_REGISTER: "list_bikes get_bike",

@@ -14,6 +14,7 @@ import signal
 import subprocess
 import sys
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from socket import socket
@@ -22,7 +23,8 @@ import uvicorn
 from uvicorn.supervisors.statreload import StatReload
 
 from backend.errors import LinkError, SpindleError
-from backend.main import listening_socket, serve_on
+from backend.listening import listening_socket
+from backend.main import serve_on
 from backend.settings import CHECKOUT, Settings, load
 
 FRONTEND = CHECKOUT / "frontend"
@@ -47,7 +49,8 @@ def main() -> int:
     if node is None or not VITE.exists():
         sys.stderr.write("make dev: Node or the browser's modules are missing; run: make setup\n")
         return 1
-    settings = load({})
+    # The way from Vite to the backend does not leave this machine.
+    settings = replace(load({}), tls="off")
     listening = a_socket(settings)
     host, port = listening.getsockname()[:2]
     origin = f"http://[{host}]:{port}" if ":" in host else f"http://{host}:{port}"

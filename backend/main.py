@@ -6,19 +6,17 @@ then the units, which begin to talk at once. Closing goes the other way round.
 
 from __future__ import annotations
 
-import asyncio
 import contextlib
 import logging
 import signal
 import socket
-import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
+from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
 
-import uvicorn
 from fastapi import FastAPI
 
 from backend import __version__
@@ -34,12 +32,13 @@ from backend.core.ride import Ride
 from backend.device.driver import LinkOpener
 from backend.device.families import FAMILIES, Families
 from backend.device.link import kind_of
-from backend.errors import LinkError, SpindleError, StoreError
+from backend.errors import SpindleError, StoreError
 from backend.formats import Readers
 from backend.imports.mapping import TableMapping
 from backend.imports.sample import sample_ride
 from backend.imports.service import QUICK_S, Uploads, UploadSettings
 from backend.imports.unit_logs import Collect
+from backend.listening import AnnouncingServer, listening_socket, server_config
 from backend.people.service import PeopleService
 from backend.rides.comparison.since_change import RidesSinceChange
 from backend.rides.diagnosis.sensor_drift import SensorDriftService
@@ -58,7 +57,9 @@ from backend.rides.replay.service import RideReplay
 from backend.rides.replay.why_ride import WhyRide
 from backend.rides.service import Rides
 from backend.rides.settings_in_force import all_through
+from backend.server.addresses import ServerAddresses, certificate_names
 from backend.server.backup import StoreService
+from backend.server.certificate import ServerCertificate, given_certificate, own_certificate
 from backend.server.health import HealthCheck
 from backend.services import Services
 from backend.settings import CHECKOUT, Settings
@@ -82,15 +83,10 @@ from backend.units.service import Devices, Watcher
 from backend.units.watch import Watch
 from backend.visits.service import Workbench
 from backend.web.app import WebSettings
-from backend.web.connections import PatientProtocol
 from backend.web.safety import AllowedHosts
 
 LOG = logging.getLogger(__name__)
 OpenerOf = Callable[[str], LinkOpener]
-# An open WebSocket or a long download must not hold a stopping server back.
-SHUTDOWN_S = 2
-# Connections that may wait while the store and the units are being opened.
-BACKLOG = 128
 # How often rides of silent units and expired uploads are looked for.
 HOUSEKEEPING_S = 1.0
 # Where the pages are: beside the package in a checkout, inside it once installed.
@@ -112,7 +108,7 @@ def open_services(
         last_seen = closing.enter_context(contextlib.closing(LastSeen(units)))
         devices = make_devices(settings, units, last_seen, families, opener)
         revisions, proofs = make_revisions(store)
-        tuning = Tuning(devices, revisions)
+        tuning, inspection = Tuning(devices, revisions), Inspection(devices)
         memory = UnitMemory(devices, revisions, units, tuning.note_trial_end)
         closing.callback(memory.close)
         recorder = Recorder(store.rides, memory.ride_context, unfinished=store.unfinished)
@@ -124,17 +120,17 @@ def open_services(
         closing.callback(collect.close)
         # Closes before those who wait for a file to be read.
         closing.callback(uploads.close)
-        dashboards, recent = Dashboards(), RecentRows()
+        dashboards, recent, library = Dashboards(), RecentRows(), make_library(store)
         follow(devices, memory.follow, recorder.watch, dashboards.follow, recent.follow)
         closing.enter_context(upkeep(recorder, uploads, store, last_seen, devices, cards))
         open_units(settings, devices)
-        library, inspection = Library(LibraryStore(store.database)), Inspection(devices)
         proposals = Proposals(store, memory.ride_config, proofs)
         closing.callback(proposals.close)
         people = PeopleService(store.database) if settings.needs_sign_in else None
         yield Services(
             store=StoreService(store, __version__),
             health=make_health(devices, recorder, store),
+            addresses=make_addresses(settings),
             devices=devices,
             inspection=inspection,
             fault_moments=FaultMoments(store.rides, recent, inspection.faults, memory.ride_context),
@@ -176,6 +172,11 @@ def make_revisions(store: Store) -> tuple[ProvenRevisions, LimitProofMaker]:
     return ProvenRevisions(RevisionStore(store.database), proofs), proofs
 
 
+def make_library(store: Store) -> Library:
+    """Tables and configurations that have a name."""
+    return Library(LibraryStore(store.database))
+
+
 def make_health(devices: Devices, recorder: Recorder, store: Store) -> HealthCheck:
     """Status of units, recordings and the store."""
     return HealthCheck(
@@ -187,6 +188,27 @@ def make_health(devices: Devices, recorder: Recorder, store: Store) -> HealthChe
         store.soundness,
         store.entries,
     )
+
+
+def make_addresses(settings: Settings) -> ServerAddresses:
+    """Where people find the server, and the certificate they find it with.
+
+    Raises InvalidRequest, StoreError.
+    """
+    hosts = settings.allowed_hosts
+    certificate = given(settings)
+    if settings.tls == "own":
+        names = certificate_names(hosts)
+        certificate = own_certificate(settings.data / "tls", names, datetime.now(UTC))
+    behind_proxy = bool(settings.proxies)
+    return ServerAddresses(settings.host, hosts, behind_proxy, settings.root_path, certificate)
+
+
+def given(settings: Settings) -> ServerCertificate | None:
+    """The certificate that the settings name, if they do. Raises InvalidRequest."""
+    if settings.tls != "files" or settings.tls_certificate is None or settings.tls_key is None:
+        return None
+    return given_certificate(settings.tls_certificate, settings.tls_key, datetime.now(UTC))
 
 
 def make_devices(
@@ -276,6 +298,7 @@ def check(settings: Settings) -> None:
     """What must be right before anything is opened. Raises InvalidRequest, StoreError."""
     for url in settings.device:
         kind_of(url)
+    given(settings)
     make_data_folder(settings.data)
 
 
@@ -386,67 +409,6 @@ def build_app(settings: Settings, services: Services) -> FastAPI:
     return build_api(web, services, services.people)
 
 
-def listening_socket(host: str, port: int) -> socket.socket:
-    """A socket on the address, before anything else is opened. Raises LinkError if it is taken."""
-    family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    try:
-        return socket.create_server((host, port), family=family, backlog=BACKLOG)
-    except (OSError, UnicodeError) as error:
-        reason = getattr(error, "strerror", None) or error
-        raise LinkError(
-            f"{host} port {port} cannot be listened on: {reason}. Stop what uses "
-            "it, or choose another with --port (0 takes a free one)."
-        ) from None
-
-
-class AnnouncingServer(uvicorn.Server):
-    """Prints one line with the address, and only once requests are really answered.
-
-    end_waiting: lets go of requests that would wait for longer than the server takes to end.
-    first_token: of the link for the first administrator; None where none is needed.
-    """
-
-    def __init__(
-        self,
-        config: uvicorn.Config,
-        end_waiting: Callable[[], None],
-        first_token: str | None = None,
-    ) -> None:
-        super().__init__(config)
-        self._end_waiting = end_waiting
-        self._first_token = first_token
-
-    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
-        """Starts to listen, then says where."""
-        await super().startup(sockets)
-        if self.started and sockets:
-            host, port = sockets[0].getsockname()[:2]
-            shown = f"[{host}]" if ":" in host else host
-            sys.stdout.write(f"Spindle is ready at http://{shown}:{port} (Ctrl-C stops it)\n")
-            if self._first_token is not None:
-                sys.stdout.write(first_link(host, port, self._first_token))
-            sys.stdout.flush()
-
-    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
-        """Stops to listen, answers who waits, ends."""
-        ending = asyncio.create_task(asyncio.to_thread(self._end_waiting))
-        await super().shutdown(sockets)
-        await ending
-
-
-def first_link(host: str, port: int, token: str) -> str:
-    """What is printed while there is no administrator.
-
-    The token stands behind the `#`: a browser sends it to nobody, and no log of requests has it.
-    """
-    anywhere = host in ("0.0.0.0", "::")
-    shown = "localhost" if anywhere else f"[{host}]" if ":" in host else host
-    return (
-        "There is no administrator yet. Whoever opens this link first becomes one (it works once, "
-        f"until the next start):\n  http://{shown}:{port}/sign-in#first={token}\n"
-    )
-
-
 def serve(settings: Settings) -> int:
     """Runs the server until Ctrl-C or SIGTERM; the process's exit code.
 
@@ -464,33 +426,14 @@ def serve_on(listening: socket.socket, settings: Settings) -> int:
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         with open_services(settings) as services:
-            config = server_config(build_app(settings, services), settings.proxies)
+            certificate = services.addresses.certificate
+            tls = None if certificate is None else certificate.context()
+            config = server_config(build_app(settings, services), settings.proxies, tls)
             # Files that are being read are read at the next start.
             people = services.people
             first_token = None if people is None else people.accounts.first_token()
-            server = AnnouncingServer(config, services.uploads.close, first_token)
+            server = AnnouncingServer(config, services.uploads.close, first_token, certificate)
             server.run(sockets=[listening])
             return 0 if server.started else 1
     except KeyboardInterrupt:
         return 0
-
-
-def server_config(app: FastAPI, proxies: tuple[str, ...] = ()) -> uvicorn.Config:
-    """How uvicorn runs the application.
-
-    proxies: addresses and networks that are believed whom they pass on; nobody else is.
-    """
-    return uvicorn.Config(
-        app,
-        log_level="warning",
-        lifespan="off",
-        proxy_headers=bool(proxies),
-        forwarded_allow_ips=",".join(proxies),
-        http=PatientProtocol,
-        # Compressing 20 small frames a second costs more than it saves on loopback.
-        ws_per_message_deflate=False,
-        # Browsers send nothing larger; whatever does is not a browser.
-        ws_max_size=64 * 1024,
-        server_header=False,
-        timeout_graceful_shutdown=SHUTDOWN_S,
-    )

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from backend.rides.replay.ride_again import RideAgain
     from backend.rides.replay.why_ride import WhyRide
     from backend.rides.service import Rides
+    from backend.server.addresses import ServerAddresses
     from backend.server.backup import StoreService
     from backend.server.health import HealthCheck
     from backend.tuning.library.compare import Compare
@@ -48,6 +49,7 @@ class Services:
 
     health: HealthCheck
     store: StoreService
+    addresses: ServerAddresses
     devices: Devices
     inspection: Inspection
     workbench: Workbench

@@ -26,6 +26,7 @@ CHECKOUT = Path(__file__).resolve().parent.parent
 BUSES = ("memory",)
 JOBS = ("inline",)
 AUTHS = ("auto", "off", "required")
+TLS = ("off", "own", "files")
 # Unreserved characters of RFC 3986, section 2.3: whoever writes them writes them in one way.
 ROOT_PATH = re.compile(r"(/[A-Za-z0-9_~-][A-Za-z0-9._~-]*)*")
 # First parts of paths of Spindle's own: below one of them, nobody could tell the two apart.
@@ -58,8 +59,9 @@ class Settings:
     so beyond loopback, `off` says somebody else guards the door. allowed_hosts: names by which
     browsers may call the server besides localhost. proxies: addresses and networks of the proxies
     that are believed who asks and whether by TLS (`X-Forwarded-For`, `-Proto`). root_path: of the
-    site, below which a proxy has the server (`/spindle`), else empty. upload_bytes_max: largest
-    file taken.
+    site, below which a proxy has the server (`/spindle`), else empty. tls: `own` makes a
+    certificate in `data`, `files` takes tls_certificate and tls_key, both PEM. upload_bytes_max:
+    largest file taken.
     author: whose changes those are whose request names nobody; the system's user unless set.
     calibration_limits: tables of the file alone, as of calibration.judgement.
     """
@@ -76,6 +78,9 @@ class Settings:
     allowed_hosts: tuple[str, ...]
     proxies: tuple[str, ...]
     root_path: str
+    tls: str
+    tls_certificate: Path | None
+    tls_key: Path | None
     upload_bytes_max: int
     author: str
     calibration_limits: tuple[Any, ...]
@@ -140,6 +145,7 @@ def combine(
         "allowed_hosts": _names(chosen.get("allowed_hosts", "")),
         "proxies": _networks(chosen.get("proxies", ""), errors),
         "root_path": _root_path(str(chosen.get("root_path", "")), errors),
+        **_tls(chosen, errors),
         "upload_bytes_max": _integer(
             chosen.get("upload_bytes_max", 256 * 1024 * 1024),
             "upload_bytes_max",
@@ -232,6 +238,22 @@ def _root_path(value: str, errors: list[FieldError]) -> str:
         message = f"root_path is {value!r}: Spindle has such paths of its own; choose another."
         errors.append(FieldError("root_path", "own_path", message))
     return path
+
+
+def _tls(chosen: Mapping[str, Any], errors: list[FieldError]) -> dict[str, Any]:
+    files = {
+        name: Path(str(chosen[name])).expanduser().resolve() if name in chosen else None
+        for name in ("tls_certificate", "tls_key")
+    }
+    tls = _one_of(chosen.get("tls", "off"), "tls", TLS, errors)
+    for name, file in files.items():
+        if tls == "files" and file is None:
+            message = f"tls is files: {name} must name a file, in PEM."
+            errors.append(FieldError(name, "missing", message))
+        elif tls in ("off", "own") and file is not None:
+            message = f"{name} is set, and tls is {tls}: set tls to files, or leave it out."
+            errors.append(FieldError(name, "unused", message))
+    return {"tls": tls, **files}
 
 
 def _integer(value: Any, name: str, low: int, high: int, errors: list[FieldError]) -> int:

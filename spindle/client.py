@@ -18,7 +18,7 @@ from typing import Any, TypeVar, Unpack
 
 from pydantic import TypeAdapter
 
-from backend.cli.client import Server, default_key, default_server
+from backend.cli.client import Server, default_ca, default_key, default_server
 from backend.device.readings import Fault, Snapshot
 from backend.errors import NoAnswer, RequestRefused
 from backend.rides.models import Ride, RideList, Series
@@ -51,11 +51,16 @@ def read_as(kind: type[Kind], answer: object) -> Kind:
 class Spindle:
     """A server. url: where it listens; as told by SPINDLE_HOST and SPINDLE_PORT if None.
 
-    key: for a server that asks who this is; as told by SPINDLE_KEY if None.
+    key: for a server that asks who this is; as told by SPINDLE_KEY if None. ca: a file with the
+    certificate of a server that no authority signed; as told by SPINDLE_CA if None.
     """
 
-    def __init__(self, url: str | None = None, key: str | None = None) -> None:
-        self.server = Server(url or default_server(), key=key or default_key())
+    def __init__(
+        self, url: str | None = None, key: str | None = None, ca: str | None = None
+    ) -> None:
+        self.server = Server(
+            url or default_server(), key=key or default_key(), ca=ca or default_ca()
+        )
 
     def health(self) -> Health:
         """Version and units. Raises LinkError when no server answers."""

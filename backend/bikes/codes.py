@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import secrets
 
-import segno
-
 # Crockford's base 32: no letter looks like a digit, and what is mistaken for one is read as that.
 ALPHABET = "0123456789ABCDEFGHJKMNPQRSTVWXYZ"
 MISTAKEN = str.maketrans("OIL", "011")
@@ -16,11 +14,6 @@ def new_code() -> str:
     """40 random bits, `XXXX-XXXX`. With the wait between tries nobody guesses one in its week."""
     code = "".join(secrets.choice(ALPHABET) for _ in range(LENGTH))
     return f"{code[:4]}-{code[4:]}"
-
-
-def qr_of(link: str) -> str:
-    """A link as a QR code (ISO/IEC 18004) with its quiet zone: a `data:` address of an SVG."""
-    return segno.make_qr(link).svg_data_uri(dark="#000", light="#fff", border=4)
 
 
 def plain_code(text: str) -> str:

@@ -8,11 +8,12 @@ from collections.abc import Callable, Sequence
 from datetime import datetime
 from typing import Any, TypeVar
 
-from backend.bikes.codes import new_code, plain_code, qr_of
+from backend.bikes.codes import new_code, plain_code
 from backend.bikes.records import BikeStore, PairingStore, taker
 from backend.bikes.types import Bike, BikeChange, BikeDetail, BikeIn, Offer, Pairing
 from backend.core.moments import utc
 from backend.core.person import Person, Sender
+from backend.core.qr import qr_of
 from backend.errors import FieldError, InvalidRequest, NotAllowed, NotFound
 from backend.people.service import PeopleService
 from backend.people.throttle import Throttle, begin

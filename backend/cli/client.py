@@ -23,6 +23,8 @@ from backend.errors import (
 )
 
 if TYPE_CHECKING:
+    import ssl
+
     import httpx
 
 CONNECT_S = 10.0
@@ -35,7 +37,9 @@ def default_server(environment: Mapping[str, str] | None = None) -> str:
     """Where a server of this machine listens unless told otherwise."""
     env = os.environ if environment is None else environment
     host = env.get("SPINDLE_HOST") or "127.0.0.1"
-    return f"http://{'127.0.0.1' if host == '0.0.0.0' else host}:{env.get('SPINDLE_PORT') or 8750}"
+    scheme = "https" if env.get("SPINDLE_TLS") in ("own", "files") else "http"
+    shown = "127.0.0.1" if host == "0.0.0.0" else host
+    return f"{scheme}://{shown}:{env.get('SPINDLE_PORT') or 8750}"
 
 
 def default_key(environment: Mapping[str, str] | None = None) -> str:
@@ -44,11 +48,18 @@ def default_key(environment: Mapping[str, str] | None = None) -> str:
     return env.get("SPINDLE_KEY", "")
 
 
+def default_ca(environment: Mapping[str, str] | None = None) -> str:
+    """The file with the certificate of a server that no authority signed; empty if none is set."""
+    env = os.environ if environment is None else environment
+    return env.get("SPINDLE_CA", "")
+
+
 class Server:
     """One server's API.
 
     transport: stands in for the network in tests. author: whose changes these are; the server's own
-    word for it if empty. key: what is sent to a server that asks who this is.
+    word for it if empty. key: what is sent to a server that asks who this is. ca: a file with the
+    certificate to believe; those of the public authorities if empty. Raises InvalidRequest.
     """
 
     def __init__(
@@ -57,6 +68,7 @@ class Server:
         transport: httpx.BaseTransport | None = None,
         author: str = "",
         key: str = "",
+        ca: str = "",
     ) -> None:
         # Verbs that ask no server start without it: it takes longer to load than all of ours.
         import httpx
@@ -70,6 +82,7 @@ class Server:
             timeout=httpx.Timeout(CONNECT_S, read=TRANSFER_S, write=TRANSFER_S),
             transport=transport,
             trust_env=False,
+            verify=trusting(ca) if ca else True,
             headers=headers,
         )
 
@@ -91,6 +104,11 @@ class Server:
         except httpx.InvalidURL as error:
             raise InvalidRequest(f"{self.url} is no address of a server: {error}.") from None
         except httpx.HTTPError as error:
+            if "CERTIFICATE_VERIFY_FAILED" in str(error):
+                raise LinkError(
+                    f"{self.url} shows a certificate that is not believed ({error}). If the server "
+                    "made it, name a copy of its data/tls/certificate.pem with --ca or SPINDLE_CA."
+                ) from None
             raise LinkError(
                 f"No server answers at {self.url} ({error}). Start one with `spindle serve`, or "
                 "name another with --server."
@@ -115,6 +133,17 @@ class Server:
         ids = ", ".join(device["id"] for device in devices) or "none"
         question = f"There is no unit {name}" if name else "Say which unit"
         raise RequestRefused(f"{question}. The server has: {ids}.")
+
+
+def trusting(ca: str) -> ssl.SSLContext:
+    """TLS that believes this certificate and no other. Raises InvalidRequest."""
+    import ssl
+
+    try:
+        return ssl.create_default_context(cafile=ca)
+    except OSError as error:
+        reason = error.strerror or error
+        raise InvalidRequest(f"{ca} cannot be read as a certificate in PEM: {reason}.") from None
 
 
 def refusal(response: httpx.Response) -> SpindleError:

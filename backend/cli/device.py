@@ -8,7 +8,15 @@ from argparse import Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from backend.cli.client import Server, default_key, default_server, print_json, print_table, text_of
+from backend.cli.client import (
+    Server,
+    default_ca,
+    default_key,
+    default_server,
+    print_json,
+    print_table,
+    text_of,
+)
 from backend.core.author import tidy_author
 from backend.errors import InvalidRequest, RequestRefused
 
@@ -20,7 +28,8 @@ def server_of(options: Namespace) -> Server:
     """The server the command line names."""
     author = tidy_author(options.author or os.environ.get("SPINDLE_AUTHOR") or "")
     key = options.key or default_key()
-    return Server(options.server or default_server(), author=author, key=key)
+    ca = options.ca or default_ca()
+    return Server(options.server or default_server(), author=author, key=key, ca=ca)
 
 
 def list_devices(options: Namespace) -> int:

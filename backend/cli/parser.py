@@ -12,6 +12,7 @@ from backend.cli import api, device, device_log, people, ride, ride_upload, serv
 from backend.cli.table_answer import QUANTITIES, column_meaning
 
 KEY = "for a server that asks who this is; default: SPINDLE_KEY"
+CA = "certificate of an https server that no authority signed; default: SPINDLE_CA"
 AUTHOR = "whose changes these are; default: the server's setting, else its system's user"
 
 
@@ -24,6 +25,7 @@ def build_parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"spindle {__version__}")
     parser.add_argument("--author", metavar="NAME", help=AUTHOR)
     parser.add_argument("--key", metavar="sp_...", help=KEY)
+    parser.add_argument("--ca", metavar="FILE", help=CA)
     verbs = parser.add_subparsers(metavar="COMMAND", required=True)
     _add_serve(verbs)
     # These two go to the simulator before this parser sees them; they are here to be listed.
@@ -50,6 +52,8 @@ def _add_serve(verbs: Any) -> None:
         metavar="URL",
         help="sim, /dev/ttyUSB0, COM3 or socket://host:port; repeat for several, `none` for none",
     )
+    words = "own: with a certificate that it makes itself; files: see docs/on-a-phone.md (off)"
+    command.add_argument("--tls", choices=["off", "own", "files"], help=words)
     _add_author(command)
     command.set_defaults(run=serve.run_server)
 
@@ -61,6 +65,7 @@ def _asking(verbs: Any, name: str, run: Any, **words: Any) -> argparse.ArgumentP
     command.add_argument("--json", action="store_true", help="the server's answer as it is")
     # After the verb, too; absent it leaves what stands before the verb.
     command.add_argument("--key", metavar="sp_...", default=argparse.SUPPRESS, help=KEY)
+    command.add_argument("--ca", metavar="FILE", default=argparse.SUPPRESS, help=CA)
     _add_author(command)
     command.set_defaults(run=run)
     return command

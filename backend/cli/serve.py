@@ -24,6 +24,7 @@ def run_server(options: Namespace) -> int:
         "data": options.data,
         "device": devices,
         "author": options.author,
+        "tls": options.tls,
     }
     return serve(load(flags))
 

@@ -1,14 +1,16 @@
-"""Is the server up, how are its units, where is everything kept, and a backup of it."""
+"""Is the server up, how are its units, where is it found, where is everything kept, and a backup of
+it."""
 
 from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from fastapi import APIRouter
+from fastapi import APIRouter, Request
 from fastapi.responses import StreamingResponse
 
 from backend.core.described import described
 from backend.errors import StoreError
+from backend.server.addresses import Addresses, ServerAddresses
 from backend.server.backup import StoreService
 from backend.server.health import Health, HealthCheck
 from backend.store import StorePlace
@@ -19,6 +21,7 @@ router = APIRouter(tags=["server"], responses=refusals())
 # Outside the API's prefix and without its version: what watches processes asks for these.
 probes = APIRouter(tags=["server"])
 TheStore = Annotated[StoreService, provided("store")]
+TheAddresses = Annotated[ServerAddresses, provided("addresses")]
 Check = Annotated[HealthCheck, provided("health")]
 
 
@@ -49,6 +52,13 @@ def get_readyz(health: Check) -> Any:
     except StoreError as error:
         return problem_response(503, "not_ready", error.message)
     return Alive()
+
+
+@router.get("/server/addresses", operation_id="get_addresses")
+def get_addresses(addresses: TheAddresses, request: Request) -> Addresses:
+    """By which addresses a phone reaches this server, and how it knows the certificate."""
+    _, port = request.scope["server"]
+    return addresses.now(str(request.base_url), port)
 
 
 @router.get("/store", operation_id="get_store", responses=refusals(503))

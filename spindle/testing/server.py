@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import queue
+import re
 import signal
 import subprocess
 import sys
@@ -16,6 +17,7 @@ from typing import Self
 
 # Generous: what is tested is that it comes, not how fast; a machine that runs tests is busy.
 PATIENCE_S = 60.0
+ADDRESS = re.compile(r"https?://\S+")
 
 
 class ServerDied(AssertionError):
@@ -56,13 +58,13 @@ class RunningServer:
         threading.Thread(target=self._read, args=(self._process,), daemon=True).start()
         lines: list[str] = []
         deadline_s = time.monotonic() + PATIENCE_S
-        while "http://" not in (lines or [""])[-1]:
+        while not (found := ADDRESS.search((lines or [""])[-1])):
             try:
                 lines.append(self._lines.get(timeout=max(0.0, deadline_s - time.monotonic())))
             except queue.Empty:
                 self.kill()
                 raise ServerDied("The server did not start:\n" + "".join(lines)) from None
-        self.url = next(word for word in lines[-1].split() if word.startswith("http://"))
+        self.url = found.group()
         return self
 
     @property

@@ -19,7 +19,7 @@ FUNCTION_LINES_MAX = 70
 LINE_LENGTH_MAX = 100
 CODE_SUFFIXES = {".py", ".c", ".h", ".ts", ".svelte", ".css"}
 LINES_MAX = {
-    "backend": 1_600,
+    "backend": 1_680,
     "backend/bikes": 870,
     "backend/calibration": 7_650,
     "backend/cli": 2_000,
@@ -31,17 +31,17 @@ LINES_MAX = {
     "backend/paper": 450,
     "backend/people": 1_480,
     "backend/rides": 10_700,
-    "backend/server": 300,
+    "backend/server": 660,
     "backend/store": 7_680,
     "backend/tuning": 3_500,
     "backend/units": 2_250,
     "backend/visits": 360,
-    "backend/web": 1_620,
+    "backend/web": 1_700,
     "firmware_protocol": 4_450,
-    "frontend": 46_720,
+    "frontend": 46_850,
     "sim_device": 21_150,
     "spindle": 700,
-    "tests": 72_600,
+    "tests": 73_000,
     "tools": 4_800,
 }
 """Lines of written code a room may have. A commit lowers a budget with what it removes; one that

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import socket
+import ssl
 import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -15,7 +16,8 @@ import httpx
 import uvicorn
 
 from backend.device.families import FAMILIES, Families
-from backend.main import build_app, listening_socket, open_services, server_config
+from backend.listening import listening_socket, server_config
+from backend.main import build_app, open_services
 from backend.services import Services
 from backend.settings import load
 from spindle.client import Spindle
@@ -59,9 +61,10 @@ def eventually(
         time.sleep(LOOK_EVERY_S)
 
 
-def api_client(url: str) -> httpx.Client:
-    """Asks the API of the server at `url`."""
+def api_client(url: str, ca: Path | None = None) -> httpx.Client:
+    """Asks the API of the server at `url`. ca: the certificate it shows, where it speaks TLS."""
     return httpx.Client(
+        verify=True if ca is None else ssl.create_default_context(cafile=ca),
         base_url=f"{url}/api/v1",
         timeout=30.0,
         trust_env=False,
@@ -137,7 +140,8 @@ class ServerProcess(RunningServer, SpindleServer):
 
     def start(self) -> Self:
         super().start()
-        self.client = api_client(self.url)
+        own = self.data / "tls" / "certificate.pem"
+        self.client = api_client(self.url, own if self.url.startswith("https") else None)
         return self
 
 
@@ -170,7 +174,9 @@ class ServerHere(SpindleServer):
             port = opening.enter_context(listening_socket(settings.host, 0))
             reach = partial(simulated_unit.opener, flash_folder=settings.data / "units")
             services = opening.enter_context(open_services(settings, self._families, reach))
-            server = uvicorn.Server(server_config(build_app(settings, services)))
+            certificate = services.addresses.certificate
+            tls = None if certificate is None else certificate.context()
+            server = uvicorn.Server(server_config(build_app(settings, services), tls=tls))
             thread = threading.Thread(target=server.run, kwargs={"sockets": [port]})
             thread.start()
 
@@ -182,7 +188,12 @@ class ServerHere(SpindleServer):
             opening.callback(end)
             self.services = services
             self.url = "http://{}:{}".format(*port.getsockname())
-            self.client = opening.enter_context(api_client(self.url))
+            ca = None
+            if certificate is not None:
+                # No certificate is for 0.0.0.0.
+                self.url = f"https://127.0.0.1:{port.getsockname()[1]}"
+                ca = certificate.certificate
+            self.client = opening.enter_context(api_client(self.url, ca))
             self._closing = opening.pop_all()
         return self
 

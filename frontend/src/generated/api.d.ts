@@ -21,6 +21,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/server/addresses": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Addresses
+         * @description By which addresses a phone reaches this server, and how it knows the certificate.
+         */
+        get: operations["get_addresses"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/store": {
         parameters: {
             query?: never;
@@ -2503,6 +2523,29 @@ export interface paths {
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        /** Address */
+        Address: {
+            /**
+             * Url
+             * @description With a slash at its end.
+             */
+            url: string;
+            /**
+             * Qr
+             * @description It as a QR code: a `data:` address of an SVG.
+             */
+            qr: string;
+        };
+        /** Addresses */
+        Addresses: {
+            /**
+             * Addresses
+             * @description The one that was called first; none while only this machine reaches the server.
+             */
+            addresses: components["schemas"]["Address"][];
+            /** @description Null where this server does not speak TLS itself. */
+            certificate: components["schemas"]["CertificateSeen"] | null;
+        };
         /** AgainRequest */
         AgainRequest: {
             /**
@@ -3335,6 +3378,24 @@ export interface components {
              * @description Of that torque, k = 2.
              */
             expanded_share: number;
+        };
+        /** CertificateSeen */
+        CertificateSeen: {
+            /**
+             * Sha256
+             * @description Of the certificate, in pairs of hexadecimal digits, as browsers show it.
+             */
+            sha256: string;
+            /**
+             * Ends At
+             * Format: date-time
+             */
+            ends_at: string;
+            /**
+             * Is Own
+             * @description Whether this server made it, so that a browser warns of it.
+             */
+            is_own: boolean;
         };
         /**
          * Change
@@ -10013,6 +10074,53 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Health"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_addresses: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Addresses"];
                 };
             };
             /** @description Unauthorized */

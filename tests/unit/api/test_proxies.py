@@ -9,7 +9,7 @@ import httpx
 import pytest
 from fastapi import FastAPI, Request
 
-from backend.main import listening_socket, server_config
+from backend.listening import listening_socket, server_config
 from tests.fakes.server import serving
 
 PASSED_ON = {"x-forwarded-for": "203.0.113.7", "x-forwarded-proto": "https"}

@@ -66,6 +66,25 @@ def test_proxies_are_addresses_and_networks() -> None:
             combine({}, {"SPINDLE_PROXIES": wrong}, {})
 
 
+def test_tls_is_off_own_or_of_two_files(tmp_path: Path) -> None:
+    files = {"tls_certificate": str(tmp_path / "c.pem"), "tls_key": str(tmp_path / "k.pem")}
+
+    assert combine({}, {}, {}).tls == "off"
+    assert combine({"tls": "own"}, {"SPINDLE_TLS": "off"}, {}).tls == "own"
+    given = combine({}, {}, {"tls": "files", **files})
+    assert (given.tls_certificate, given.tls_key) == (tmp_path / "c.pem", tmp_path / "k.pem")
+    for settings, at_fault in (
+        ({"tls": "yes"}, {"tls"}),
+        ({"tls": "files"}, {"tls_certificate", "tls_key"}),
+        ({"tls": "files", "tls_key": "k.pem"}, {"tls_certificate"}),
+        (files, {"tls_certificate", "tls_key"}),
+        ({"tls": "own", "tls_key": "k.pem"}, {"tls_key"}),
+    ):
+        with pytest.raises(InvalidRequest) as refusal:
+            combine({}, {}, settings)
+        assert {field.field for field in refusal.value.fields} == at_fault
+
+
 def test_every_wrong_setting_is_named() -> None:
     with pytest.raises(InvalidRequest) as refusal:
         combine({"port": "99999"}, {"SPINDLE_BUS": "pigeon"}, {"colour": "red"})
