@@ -1,1 +1,1 @@
-"""The server itself: its health, its store as a whole, its backup."""
+"""The server itself: its health, its store, its backup, its addresses and certificate."""
