@@ -36,6 +36,7 @@ OWN_PATHS = frozenset(
         "assets",
         "connect",
         "healthz",
+        "icons",
         "live",
         "metrics",
         "readyz",

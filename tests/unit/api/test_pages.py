@@ -37,6 +37,21 @@ def test_every_page_of_the_app_is_its_entry_page_never_cached(built: TestClient,
     assert response.headers["cache-control"] == "no-cache"
 
 
+def test_what_makes_it_a_page_of_its_own_is_served_as_that() -> None:
+    app = FastAPI()
+    app.mount("/", pages.Pages(Path(__file__).resolve().parents[3] / "frontend" / "public"))
+    public = TestClient(app)
+
+    manifest = public.get("/spindle.webmanifest")
+
+    assert manifest.headers["content-type"] == "application/manifest+json"
+    # Found from its own address, wherever a proxy has put it.
+    members = manifest.json()
+    assert (members["start_url"], members["scope"]) == ("./", "./")
+    for icon in [*members["icons"], {"src": "icons/apple-touch-icon.png"}]:
+        assert public.get(f"/{icon['src']}").content.startswith(b"\x89PNG\r\n\x1a\n")
+
+
 def test_hashed_files_are_cached_for_good(built: TestClient) -> None:
     response = built.get("/assets/app-1a2b.js")
 
