@@ -81,13 +81,21 @@ class ServerAddresses:
         scheme = "http" if self.certificate is None else "https"
         hosts = [] if is_of_this_machine(self._host) else [*self._names, *self._listened_on()]
         urls = [url_of(scheme, host, port, self._root_path) for host in hosts]
-        if not is_of_this_machine(urlsplit(called).hostname or ""):
-            urls.insert(0, called)
-        different = list(dict.fromkeys(urls))[:ADDRESSES_MAX]
+        different = list(dict.fromkeys([*self._as_called(called), *urls]))[:ADDRESSES_MAX]
         seen = None
         if (mine := self.certificate) is not None:
             seen = CertificateSeen(mine.sha256, mine.ends_at, mine.is_own)
         return Addresses(tuple(Address(url, qr_of(url)) for url in different), seen)
+
+    def _as_called(self, called: str) -> list[str]:
+        """The address of a request, if another machine could use it; what stands behind its host
+        was checked by nobody."""
+        parts = urlsplit(called)
+        with suppress(ValueError):
+            host, port = parts.hostname or "localhost", parts.port or DEFAULT_PORTS[parts.scheme]
+            if not is_of_this_machine(host):
+                return [url_of(parts.scheme, host, port, self._root_path)]
+        return []
 
     def _listened_on(self) -> list[str]:
         """Of the machine's addresses those that this server takes, or the only one it does."""

@@ -73,6 +73,13 @@ def test_what_the_phone_or_the_proxy_called_comes_first_and_once() -> None:
     assert urls(listening("0.0.0.0"), called) == [called, "http://192.0.2.7:8750/"]
 
 
+@pytest.mark.parametrize("port", ["x" * 9000, "99999", "-1", ""])
+def test_a_port_that_is_none_makes_no_address(port: str) -> None:
+    found = urls(listening("192.0.2.7"), f"http://198.51.100.4:{port}/")
+
+    assert [one for one in found if "198" in one] in ([], ["http://198.51.100.4/"])
+
+
 def test_the_fingerprint_is_told_with_the_addresses() -> None:
     answer = listening("0.0.0.0", certificate=CERTIFICATE).now(HERE, 8750)
 
