@@ -15,7 +15,7 @@ import uvicorn
 from backend.errors import LinkError
 from backend.server.certificate import ServerCertificate
 from backend.web.connections import PatientProtocol
-from backend.web.tls_door import TlsDoor
+from backend.web.tls_handshake import TlsHandshake
 
 # An open WebSocket or a long download must not hold a stopping server back.
 SHUTDOWN_S = 2
@@ -44,7 +44,7 @@ def server_config(
     proxies: addresses and networks that are believed whom they pass on; nobody else is.
     tls: spoken on every connection; None for none.
     """
-    http: Any = PatientProtocol if tls is None else partial(TlsDoor, tls, PatientProtocol)
+    http: Any = PatientProtocol if tls is None else partial(TlsHandshake, tls, PatientProtocol)
     return uvicorn.Config(
         app,
         log_level="warning",

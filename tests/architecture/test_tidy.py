@@ -36,12 +36,12 @@ LINES_MAX = {
     "backend/tuning": 3_500,
     "backend/units": 2_250,
     "backend/visits": 360,
-    "backend/web": 1_700,
+    "backend/web": 1_710,
     "firmware_protocol": 4_450,
     "frontend": 46_850,
     "sim_device": 21_150,
     "spindle": 700,
-    "tests": 73_000,
+    "tests": 73_450,
     "tools": 4_800,
 }
 """Lines of written code a room may have. A commit lowers a budget with what it removes; one that

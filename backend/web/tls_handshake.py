@@ -1,4 +1,4 @@
-"""Where TLS begins: a connection is nobody's until the other end has shaken hands.
+"""The TLS handshake of each connection, before anything else is read of it.
 
 uvicorn would leave this to the event loop, which waits a minute and counts no such connection: as
 many as a stranger likes to open would use up the process's file descriptors. Here those who are
@@ -21,7 +21,7 @@ from backend.web.connections import CONNECTIONS_MAX, HEAD_S, PatientProtocol
 GOODBYE_S = 2.0
 
 
-class TlsDoor(asyncio.Protocol):
+class TlsHandshake(asyncio.Protocol):
     """One connection before its handshake; after it, `behind` has the connection.
 
     named: what uvicorn gives to each of its connections.
@@ -72,8 +72,8 @@ class TlsDoor(asyncio.Protocol):
         return self.transport is None or self.transport.is_closing()
 
     def _make_room(self) -> None:
-        doors = [one for one in self._connections if isinstance(one, TlsDoor)]
-        others = [one for one in doors if one is not self and not one.is_leaving]
+        waiting = [one for one in self._connections if isinstance(one, TlsHandshake)]
+        others = [one for one in waiting if one is not self and not one.is_leaving]
         longest = min(others, key=lambda one: one.since_s, default=None)
         if longest is not None:
             longest.shutdown()

@@ -1,7 +1,7 @@
 """Goal: who reaches the port and never shakes hands is let go as anybody else who is silent, keeps
 nobody out, and is written nowhere; who does shake hands is served.
 
-Method: a real uvicorn on loopback behind a door with patience of tenths of a second.
+Method: a real uvicorn on loopback whose handshakes have patience of tenths of a second.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from fastapi import FastAPI, Request
 
 from backend.server.certificate import ServerCertificate, own_certificate
 from backend.web.connections import PatientProtocol
-from backend.web.tls_door import TlsDoor
+from backend.web.tls_handshake import TlsHandshake
 from tests.fakes import server
 
 PATIENCE_S = 20.0
@@ -31,11 +31,11 @@ BROKEN = b"\x16\x03\x01\x00\x05hello"
 PLAIN = b"GET /value HTTP/1.1\r\nHost: x\r\n\r\n"
 
 
-class NarrowDoor(TlsDoor):
+class FewHandshakes(TlsHandshake):
     connections_max = 50
 
 
-class ImpatientDoor(TlsDoor):
+class ImpatientHandshake(TlsHandshake):
     handshake_s = 0.3
 
 
@@ -46,14 +46,16 @@ def certificate(tmp_path_factory: pytest.TempPathFactory) -> ServerCertificate:
 
 
 @contextlib.contextmanager
-def serving(door: type[TlsDoor], certificate: ServerCertificate) -> Iterator[tuple[str, int]]:
+def serving(
+    handshake: type[TlsHandshake], certificate: ServerCertificate
+) -> Iterator[tuple[str, int]]:
     app = FastAPI()
 
     @app.post("/value")
     async def value(request: Request) -> list[Any]:
         return [request.url.scheme, len(await request.body())]
 
-    http: Any = partial(door, certificate.context(), PatientProtocol)
+    http: Any = partial(handshake, certificate.context(), PatientProtocol)
     with socket.create_server(("127.0.0.1", 0), backlog=512) as listening:
         config = uvicorn.Config(app, http=http, lifespan="off", log_config=None)
         with server.serving(config, listening) as address:
@@ -79,7 +81,7 @@ def ends(talker: socket.socket) -> bytes:
 
 
 def test_who_shakes_hands_is_served(certificate: ServerCertificate) -> None:
-    with serving(TlsDoor, certificate) as address:
+    with serving(TlsHandshake, certificate) as address:
         for length in (0, 1, 1_000_000):
             answer = answer_at(address, certificate, b"x" * length)
             assert answer == f'["https",{length}]'.encode()
@@ -87,7 +89,7 @@ def test_who_shakes_hands_is_served(certificate: ServerCertificate) -> None:
 
 def test_a_request_right_behind_the_handshake_is_not_lost(certificate: ServerCertificate) -> None:
     trusting = ssl.create_default_context(cafile=certificate.certificate)
-    with serving(TlsDoor, certificate) as address:
+    with serving(TlsHandshake, certificate) as address:
         for _ in range(20):
             to_client, to_server = ssl.MemoryBIO(), ssl.MemoryBIO()
             tls = trusting.wrap_bio(to_client, to_server, server_hostname="127.0.0.1")
@@ -113,7 +115,7 @@ def test_who_speaks_something_else_is_let_go_without_a_word(
     certificate: ServerCertificate, beginning: bytes, caplog: pytest.LogCaptureFixture
 ) -> None:
     caplog.set_level(logging.WARNING)
-    with serving(ImpatientDoor, certificate) as address:
+    with serving(ImpatientHandshake, certificate) as address:
         with socket.create_connection(address) as talker:
             talker.sendall(beginning)
             assert b"HTTP" not in ends(talker)
@@ -129,7 +131,7 @@ def test_a_handshake_that_never_comes_ends_the_connection(
     certificate: ServerCertificate, beginning: bytes
 ) -> None:
     with (
-        serving(ImpatientDoor, certificate) as address,
+        serving(ImpatientHandshake, certificate) as address,
         socket.create_connection(address) as talker,
     ):
         talker.sendall(beginning)
@@ -138,7 +140,7 @@ def test_a_handshake_that_never_comes_ends_the_connection(
 
 def test_two_hundred_silent_sockets_keep_nobody_out(certificate: ServerCertificate) -> None:
     with contextlib.ExitStack() as held:
-        address = held.enter_context(serving(NarrowDoor, certificate))
+        address = held.enter_context(serving(FewHandshakes, certificate))
         silent = [held.enter_context(socket.create_connection(address)) for _ in range(200)]
 
         assert answer_at(address, certificate, b"abc") == b'["https",3]'
@@ -148,7 +150,7 @@ def test_two_hundred_silent_sockets_keep_nobody_out(certificate: ServerCertifica
 
 def test_a_server_that_stops_waits_for_no_handshake(certificate: ServerCertificate) -> None:
     with contextlib.ExitStack() as held:
-        with serving(TlsDoor, certificate) as address:
+        with serving(TlsHandshake, certificate) as address:
             silent = held.enter_context(socket.create_connection(address))
             assert answer_at(address, certificate, b"") == b'["https",0]'
 
