@@ -11,6 +11,7 @@ import sys
 from fastapi import FastAPI
 
 from backend import __version__
+from backend.audit import api as audit
 from backend.bikes import api as bikes
 from backend.calibration import api as calibrations
 from backend.calibration.bike import api as bike_numbers
@@ -49,6 +50,7 @@ OPERATIONS: dict[Permission | Anyone, str] = {
     P.SEE_REGISTER: "list_bikes get_bike",
     P.CHANGE_REGISTER: "add_bike change_bike remove_bike give_rides pair_bike leave_bike",
     P.SEE_SERVER: "get_health get_store list_ports",
+    P.SEE_AUDIT: "list_audit export_audit",
     P.BACK_UP: "get_backup",
     P.MANAGE_PEOPLE: "list_people add_person change_person remove_person",
     P.SEE_BIKES: "list_devices get_device get_snapshot get_service get_dashboard list_faults "
@@ -112,6 +114,7 @@ OF_RIDES = (logbook, comparison, insight, rides, proposals)
 ROUTERS = [
     server.router,
     people_router,
+    audit.router,
     bikes.router,
     visits.router,
     calibrations.figures,

@@ -16,11 +16,14 @@ from collections.abc import Callable, Iterator
 from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
+from typing import Protocol, TypeVar
 
 from fastapi import FastAPI
 
 from backend import __version__
 from backend.app import build_api
+from backend.audit.records import AuditReader
+from backend.audit.service import Audit
 from backend.bikes.records import BikeStore, PairingStore
 from backend.bikes.service import Bikes
 from backend.calibration.bike.service import BikeNumbers
@@ -28,6 +31,7 @@ from backend.calibration.certified_torque import CertifiedTorque
 from backend.calibration.clock import JobDates
 from backend.calibration.records import CalibrationStore
 from backend.calibration.service import Calibrations, open_calibrations
+from backend.core.audit import Note
 from backend.core.ride import Ride
 from backend.device.driver import LinkOpener
 from backend.device.families import FAMILIES, Families
@@ -64,6 +68,7 @@ from backend.server.health import HealthCheck
 from backend.services import Services
 from backend.settings import CHECKOUT, Settings
 from backend.store import Store, open_store
+from backend.store.audit import AuditLog
 from backend.store.schemas import SchemaFiles
 from backend.tuning.library.compare import Compare
 from backend.tuning.library.records import LibraryStore
@@ -105,30 +110,29 @@ def open_services(
     with contextlib.ExitStack() as closing:
         store = closing.enter_context(open_store(settings.db, settings.objects))
         units, cards = UnitStore(store.database), RideCards(store)
+        audit = closed_by(closing, AuditLog(store.database))
         last_seen = closing.enter_context(contextlib.closing(LastSeen(units)))
-        devices = make_devices(settings, units, last_seen, families, opener)
+        devices = make_devices(settings, units, last_seen, families, opener, audit.note)
         revisions, proofs = make_revisions(store)
-        tuning, inspection = Tuning(devices, revisions), Inspection(devices)
-        memory = UnitMemory(devices, revisions, units, tuning.note_trial_end)
-        closing.callback(memory.close)
+        tuning, inspection = Tuning(devices, revisions), Inspection(devices, audit.note)
+        memory = closed_by(closing, UnitMemory(devices, revisions, units, tuning.note_trial_end))
         recorder = Recorder(store.rides, memory.ride_context, unfinished=store.unfinished)
         closing.callback(recorder.close)
         uploads = make_uploads(settings, store, cards.make)
         # Units close first: their last rows still find the recorder.
         closing.callback(devices.close)
-        collect = Collect(devices, uploads, settings.data / "collecting")
+        collect = Collect(devices, uploads, settings.data / "collecting", audit.note)
         closing.callback(collect.close)
         # Closes before those who wait for a file to be read.
         closing.callback(uploads.close)
         dashboards, recent, library = Dashboards(), RecentRows(), make_library(store)
         follow(devices, memory.follow, recorder.watch, dashboards.follow, recent.follow)
-        closing.enter_context(upkeep(recorder, uploads, store, last_seen, devices, cards))
+        closing.enter_context(upkeep(recorder, uploads, store, last_seen, devices, cards, audit))
         open_units(settings, devices)
-        proposals = Proposals(store, memory.ride_config, proofs)
-        closing.callback(proposals.close)
+        proposals = closed_by(closing, Proposals(store, memory.ride_config, proofs))
         people = PeopleService(store.database) if settings.needs_sign_in else None
         yield Services(
-            store=StoreService(store, __version__),
+            store=StoreService(store, __version__, audit.note),
             health=make_health(devices, recorder, store),
             addresses=make_addresses(settings),
             devices=devices,
@@ -140,7 +144,7 @@ def open_services(
             tuning=tuning,
             calibrations=make_calibrations(settings, devices, store, tuning),
             bike_numbers=make_bike_numbers(store, memory, tuning),
-            trial_values=TrialTuning(devices),
+            trial_values=TrialTuning(devices, note=audit.note),
             preview=Preview(),
             library=library,
             compare=Compare(library, tuning),
@@ -158,12 +162,26 @@ def open_services(
             ledger=EnergyLedger(store, memory.ride_config),
             insight=Insight(store, memory.ride_config),
             uploads=uploads,
-            tables=TableMapping(store, uploads),
+            tables=TableMapping(store, uploads, audit.note),
             sample_ride=partial(sample_ride, store, uploads),
             collect=collect,
             bikes=make_bikes(store, people, units),
+            audit=Audit(AuditReader(store.database)),
             people=people,
         )
+
+
+class Closable(Protocol):
+    def close(self) -> None: ...
+
+
+Closed = TypeVar("Closed", bound=Closable)
+
+
+def closed_by(closing: contextlib.ExitStack, one: Closed) -> Closed:
+    """Something that is closed when `closing` is."""
+    closing.callback(one.close)
+    return one
 
 
 def make_revisions(store: Store) -> tuple[ProvenRevisions, LimitProofMaker]:
@@ -217,6 +235,7 @@ def make_devices(
     last_seen: LastSeen,
     families: Families,
     opener: OpenerOf | None,
+    note: Note,
 ) -> Devices:
     """The units there are; none is opened yet."""
     devices = Devices(
@@ -226,6 +245,7 @@ def make_devices(
         bike_of=units.bike_of,
         last_seen=last_seen.at,
         families=families,
+        note=note,
     )
     devices.watch(last_seen.follower(devices.get))
     return devices
@@ -320,12 +340,14 @@ def upkeep(
     last_seen: LastSeen,
     devices: Devices,
     cards: RideCards,
+    audit: AuditLog,
 ) -> contextlib.AbstractContextManager[None]:
     """What is done beside the server: tidying up, and what is kept of each ride."""
     return every_second(
         housekeeping=partial(tidy, recorder, uploads, store, last_seen, devices),
         figures=RideFigures(store).tick,
         cards=cards.tick,
+        audit=audit.catch_up,
         zeros=RideZeros(store).tick,
         calibrations=JobDates(CalibrationStore(store)).tick,
     )

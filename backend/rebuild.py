@@ -12,14 +12,14 @@ from __future__ import annotations
 from collections.abc import Iterable
 from contextlib import ExitStack
 from dataclasses import asdict, dataclass, field
-from pathlib import PurePosixPath
+from pathlib import PurePath, PurePosixPath
 
 from backend.calibration.files import bring_back_calibration, is_calibration
 from backend.errors import StoreError
 from backend.store.entries import Entries
 from backend.store.facts import StoredRide
 from backend.store.from_object import add_stored, damage_of, files_of, read_stored
-from backend.store.identity import new_id, write_identity
+from backend.store.identity import finish_rebuild, new_id, write_identity
 from backend.store.inspect_schema import DAMAGED, EMPTY, MISSING, OK, DatabaseView, inspect_database
 from backend.store.locks import hold
 from backend.store.objects import (
@@ -102,7 +102,13 @@ def rebuilt_store(db_url: str, objects: FileObjects) -> Rebuilt:
         database.write(lambda c: write_identity(c, store_id, server_id, rebuilding=True))
         mend_rows(database, objects, report)
         bring_back(database, objects, view, report)
-        database.write(lambda c: write_identity(c, store_id, server_id, rebuilding=False))
+        facts = {
+            "rides": report.rides,
+            "rides_mended": report.rides_mended,
+            "calibrations": report.calibrations,
+            "set_aside": [PurePath(name).name for name in report.set_aside],
+        }
+        database.write(lambda c: finish_rebuild(c, store_id, server_id, facts))
     return report
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from backend.audit.service import Audit
     from backend.bikes.service import Bikes
     from backend.calibration.bike.service import BikeNumbers
     from backend.calibration.service import Calibrations
@@ -81,5 +82,6 @@ class Services:
     sample_ride: Callable[[int | None], int]
     collect: Collect
     bikes: Bikes
+    audit: Audit
     # None where nobody is asked to sign in.
     people: PeopleService | None

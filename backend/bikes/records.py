@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 from sqlalchemy import ColumnElement, Connection, Row, Table, delete, func, insert, select, update
 
 from backend.bikes.types import Bike, BikeDetail, BikeOwner, BikeUnit, Offer
+from backend.core.actor import actor_of_person
+from backend.core.audit import Action, AuditEntry, Members, differing
 from backend.core.moments import utc, utc_or_none
 from backend.core.person import Person, Sender
 from backend.errors import Conflict, NotFound
+from backend.store import audit
 from backend.store.bikes import owner_at
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database
@@ -18,6 +22,7 @@ from backend.store.upload_rows import sent_by
 from backend.store.wall_clock import now_us
 
 BIKES_MAX = 20_000
+DESCRIBED = ("name", "model", "frame_number", "battery", "mileage_km")
 
 
 class BikeStore:
@@ -59,8 +64,10 @@ class BikeStore:
             count = connection.execute(select(func.count()).select_from(t.bike)).scalar_one()
             if count >= BIKES_MAX:
                 raise Conflict(f"There are {BIKES_MAX} bikes, and no more.", "bikes_full")
-            made = insert(t.bike).values(**values, created_us=now_us()).returning(t.bike.c.id)
-            return int(connection.execute(made).scalar_one())
+            made = insert(t.bike).values(**values, created_us=now_us()).returning(t.bike)
+            row = connection.execute(made).one()
+            audit.append(connection, of_bike_row(Action.BIKE_ADDED, row, after=facts_of(row)))
+            return int(row.id)
 
         return self._database.write(work)
 
@@ -69,12 +76,18 @@ class BikeStore:
         leaves it as it is. Raises NotFound, StoreError."""
 
         def work(connection: Connection) -> None:
-            row_of(connection, bike_id)
+            row = row_of(connection, bike_id)
             if values:
                 mine = t.bike.c.id == bike_id
                 connection.execute(update(t.bike).where(mine).values(**values))
-            for key in unit:
-                put_on(connection, bike_id, key, now_us())
+            moved = [one for key in unit for one in put_on(connection, bike_id, key, now_us())]
+            now = row_of(connection, bike_id)
+            old, new = differing(facts_of(row), facts_of(now))
+            if new:
+                entry = of_bike_row(Action.BIKE_CHANGED, now, before=old, after=new)
+                audit.append(connection, entry)
+            for entry in moved:
+                audit.append(connection, entry)
 
         self._database.write(work)
 
@@ -85,7 +98,7 @@ class BikeStore:
         """
 
         def work(connection: Connection) -> None:
-            row_of(connection, bike_id)
+            row = row_of(connection, bike_id)
             on_now = (t.bike_unit.c.bike_id == bike_id) & t.bike_unit.c.to_us.is_(None)
             used = [select(t.bike_unit.c.id).where(on_now)]
             used += [
@@ -98,6 +111,7 @@ class BikeStore:
             for table in (t.pairing, t.bike_unit):
                 connection.execute(delete(table).where(table.c.bike_id == bike_id))
             connection.execute(delete(t.bike).where(t.bike.c.id == bike_id))
+            audit.append(connection, of_bike_row(Action.BIKE_REMOVED, row, before=facts_of(row)))
 
         self._database.write(work)
 
@@ -109,7 +123,7 @@ class BikeStore:
         """
 
         def work(connection: Connection) -> None:
-            row_of(connection, bike_id)
+            bike = row_of(connection, bike_id)
             columns = (t.ride.c.id, t.ride.c.started_us, t.ride.c.owner_id)
             rows = connection.execute(select(*columns).where(t.ride.c.id.in_(ride_ids))).all()
             if missing := set(ride_ids) - {row.id for row in rows}:
@@ -121,6 +135,8 @@ class BikeStore:
                     raise Conflict(message, "somebody_elses")
                 given = {"bike_id": bike_id, "owner_id": owner_id}
                 connection.execute(update(t.ride).where(t.ride.c.id == row.id).values(given))
+            rides = {"ride_ids": sorted(set(ride_ids))}
+            audit.append(connection, of_bike_row(Action.BIKE_RIDES_GIVEN, bike, after=rides))
 
         self._database.write(work)
 
@@ -168,11 +184,14 @@ class PairingStore:
         }
 
         def work(connection: Connection) -> None:
-            row_of(connection, bike_id)
+            bike = row_of(connection, bike_id)
             require_nobodys(connection, bike_id, owned_from_us)
             over = (t.pairing.c.bike_id == bike_id) | (t.pairing.c.expires_us <= created_us)
             connection.execute(delete(t.pairing).where(over))
             connection.execute(insert(t.pairing).values(values))
+            since = None if owned_from_us is None else utc(owned_from_us).isoformat()
+            offered = {"owned_from": since, "expires_at": utc(expires_us).isoformat()}
+            audit.append(connection, of_bike_row(Action.BIKE_OFFERED, bike, after=offered))
 
         self._database.write(work)
 
@@ -195,10 +214,13 @@ class PairingStore:
 
         def work(connection: Connection) -> None:
             mine = (t.bike_owner.c.bike_id == bike_id) & t.bike_owner.c.to_us.is_(None)
-            ended = connection.execute(update(t.bike_owner).where(mine).values(to_us=now_us()))
-            if not ended.rowcount:
+            ended = update(t.bike_owner).where(mine).values(to_us=now_us())
+            owner = connection.execute(ended.returning(t.bike_owner.c.name)).scalar()
+            if owner is None:
                 raise NotFound(f"Bike {bike_id} is nobody's.")
             connection.execute(delete(t.pairing).where(t.pairing.c.bike_id == bike_id))
+            bike = row_of(connection, bike_id)
+            audit.append(connection, of_bike_row(Action.BIKE_LEFT, bike, before={"owner": owner}))
 
         self._database.write(work)
 
@@ -224,6 +246,11 @@ def taken(connection: Connection, code_sha256: str, person: Person) -> int | Non
     theirs = (t.ride.c.bike_id == row.bike_id) & (t.ride.c.started_us >= from_us)
     theirs &= t.ride.c.owner_id.is_(None)
     connection.execute(update(t.ride).where(theirs).values(owner_id=person.id))
+    old = {"owner": None if before is None else before.name}
+    new = {"owner": person.name, "since": utc(from_us).isoformat()}
+    bike = row_of(connection, row.bike_id)
+    entry = of_bike_row(Action.BIKE_TAKEN, bike, before=old, after=new)
+    audit.append(connection, entry, actor_of_person(person))
     return int(row.bike_id)
 
 
@@ -244,27 +271,53 @@ def valid(code_sha256: str) -> Any:
     return (t.pairing.c.code_sha256 == code_sha256) & (t.pairing.c.expires_us > now_us())
 
 
-def put_on(connection: Connection, bike_id: int, unit_key: str | None, at_us: int) -> None:
+def put_on(
+    connection: Connection, bike_id: int, unit_key: str | None, at_us: int
+) -> Sequence[AuditEntry]:
     """Say that a unit is on a bike from now on, and what was on it no more; None for no unit.
 
-    Raises NotFound for a unit that was never seen.
+    What that is for the audit, of each bike that has another unit now. Raises NotFound for a unit
+    that was never seen.
     """
     of = t.bike_unit.c
-    if unit_key is None:
-        on_it = (of.bike_id == bike_id) & of.to_us.is_(None)
-        connection.execute(update(t.bike_unit).where(on_it).values(to_us=at_us))
-        return
-    known = select(t.unit.c.key).where(t.unit.c.key == unit_key)
-    if connection.execute(known).first() is None:
-        raise NotFound(f"There is no unit {unit_key}.")
-    on_now = select(of.bike_id).where(of.unit_key == unit_key, of.to_us.is_(None))
-    before = connection.execute(on_now).scalar()
-    if before == bike_id:
-        return
+    if unit_key is not None:
+        known = select(t.unit.c.key).where(t.unit.c.key == unit_key)
+        if connection.execute(known).first() is None:
+            raise NotFound(f"There is no unit {unit_key}.")
     ends = ((of.bike_id == bike_id) | (of.unit_key == unit_key)) & of.to_us.is_(None)
+    columns = (of.bike_id, of.unit_key)
+    before = {row.bike_id: row.unit_key for row in connection.execute(select(*columns).where(ends))}
+    if before.get(bike_id) == unit_key:
+        return ()
     connection.execute(update(t.bike_unit).where(ends).values(to_us=at_us))
-    values = {"bike_id": bike_id, "unit_key": unit_key, "from_us": at_us}
-    connection.execute(insert(t.bike_unit).values(values))
+    if unit_key is not None:
+        values = {"bike_id": bike_id, "unit_key": unit_key, "from_us": at_us}
+        connection.execute(insert(t.bike_unit).values(values))
+    now = dict.fromkeys(before) | {bike_id: unit_key}
+    return tuple(
+        replace(
+            of_bike_row(Action.BIKE_UNIT_CHANGED, row_of(connection, one)),
+            before={"unit_key": before.get(one)},
+            after={"unit_key": now[one]},
+            unit_key=now[one] or before.get(one),
+        )
+        for one in sorted(now)
+    )
+
+
+def facts_of(row: Row[Any]) -> Members:
+    """What the audit tells of a bike: what people say of it."""
+    said = {name: getattr(row, name) for name in DESCRIBED}
+    return {name: value for name, value in said.items() if value is not None} | {
+        "lost": row.lost_us is not None
+    }
+
+
+def of_bike_row(
+    action: Action, row: Row[Any], before: Members | None = None, after: Members | None = None
+) -> AuditEntry:
+    """Something that was done to a bike."""
+    return AuditEntry(action, row.id, row.name, before, after, bike_id=row.id)
 
 
 def row_of(connection: Connection, bike_id: int) -> Row[Any]:

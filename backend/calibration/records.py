@@ -21,9 +21,11 @@ from backend.calibration.files import (
     forget_open,
     write_open,
 )
+from backend.core.audit import Action, AuditEntry
 from backend.core.author import proof_of
 from backend.core.canonical_json import canonical_text, sha256_of
 from backend.errors import Conflict, NotFound, ObjectDamaged
+from backend.store import audit
 from backend.store.bikes import bike_of_unit
 from backend.store.discard import calibration_key
 from backend.store.soundness import WORDS, Expected
@@ -73,6 +75,8 @@ class CalibrationStore:
             made = insert(t.calibration).values(values).returning(t.calibration.c.id)
             job_id = int(connection.execute(made).scalar_one())
             self._write_file(connection, job_id)
+            entry = AuditEntry(Action.CALIBRATION_OPENED, job_id, unit_key=unit_key)
+            audit.append(connection, entry)
             return job_id, True
 
         job_id, is_new = self._database.write(work)
@@ -97,15 +101,20 @@ class CalibrationStore:
         rows = self._database.read(lambda c: c.execute(query.limit(JOBS_MAX)).all())
         return tuple(map(job_from, rows))
 
-    def change(self, job_id: int, work: Callable[[Body], Body]) -> StoredCalibration:
+    def change(
+        self, job_id: int, work: Callable[[Body], Body], entry: AuditEntry | None = None
+    ) -> StoredCalibration:
         """Give an open job another body, made of the one it has; what `work` raises changes
-        nothing. Raises NotFound, Conflict for a closed one, StoreError."""
+        nothing. entry: what that is for the audit, None for nothing. Raises NotFound, Conflict for
+        a closed one, StoreError."""
 
         def changed(connection: Connection) -> StoredCalibration:
             job = open_job(connection, job_id)
             body = dict(work(job.body))
             set_body(connection, job_id, body)
             self._write_file(connection, job_id)
+            if entry is not None:
+                audit.append(connection, entry)
             return replace(job, body=body)
 
         return self._database.write(changed)
@@ -219,6 +228,9 @@ class CalibrationStore:
                 }
                 mine = t.calibration.c.id == job_id
                 connection.execute(update(t.calibration).where(mine).values(values))
+                after = {"sha256": sha256}
+                action, key = Action.CALIBRATION_CLOSED, job.unit_key
+                audit.append(connection, AuditEntry(action, job_id, after=after, unit_key=key))
 
             self._database.write(closed)
         forget_open(self._objects, job.unit_key)

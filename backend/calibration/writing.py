@@ -27,6 +27,7 @@ from backend.calibration.jobs import CalibrationJobs
 from backend.calibration.plain import from_plain
 from backend.calibration.records import CalibrationStore
 from backend.calibration.unit_record import record_of, record_to_write
+from backend.core.audit import Action, AuditEntry, differing
 from backend.errors import Conflict, NoAnswer, RequestRefused
 from backend.tuning.service import Tuning
 
@@ -150,6 +151,14 @@ class CalibrationRecord:
         self._store.change(
             job.id,
             lambda body: {**body, "pending": None, "changes": [*body["changes"], change]},
+            AuditEntry(
+                Action.CALIBRATION_WRITTEN if kind == kept.WRITE else Action.CALIBRATION_RESTORED,
+                job.id,
+                None,
+                *differing(before, record),
+                reason,
+                job.unit_key,
+            ),
         )
 
     def _before(

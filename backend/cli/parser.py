@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from backend import __version__
-from backend.cli import api, device, device_log, people, ride, ride_upload, serve, store
+from backend.cli import api, audit, device, device_log, people, ride, ride_upload, serve, store
 from backend.cli.table_answer import QUANTITIES, column_meaning
 
 KEY = "for a server that asks who this is; default: SPINDLE_KEY"
@@ -35,6 +35,7 @@ def build_parser() -> argparse.ArgumentParser:
     _add_ride(verbs)
     _add_store(verbs)
     people.add_arguments(_group(verbs, "people", people.WORDS))
+    audit.add_arguments(_group(verbs, "audit", audit.WORDS))
     _add_api(verbs)
     _add_calibrate(verbs)
     _add_unlock(verbs)

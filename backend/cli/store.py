@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from argparse import Namespace
+from contextlib import AbstractContextManager
 from typing import Any
 
 from backend.cli.client import print_json, text_of
@@ -17,6 +18,14 @@ def urls(options: Namespace) -> tuple[str, str]:
 
     settings = load({"data": options.data})
     return settings.db, settings.objects
+
+
+def as_command() -> AbstractContextManager[None]:
+    """What is done in here a command did, in the name of the system's user."""
+    from backend.core.actor import Actor, acting
+    from backend.settings import system_user
+
+    return acting(Actor("command", system_user()))
 
 
 def check(options: Namespace) -> int:
@@ -75,7 +84,8 @@ def rebuild(options: Namespace) -> int:
     """Brings every ride of the folder into an empty database; 1 if files were not taken."""
     from backend.rebuild import rebuild_store, report_lines
 
-    report = rebuild_store(*urls(options))
+    with as_command():
+        report = rebuild_store(*urls(options))
     if options.json:
         print_json(report.as_json())
     else:

@@ -2,7 +2,21 @@
 
 from __future__ import annotations
 
-from pydantic import BaseModel, ConfigDict
+import re
+from datetime import datetime
+from typing import Annotated
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict
+
+
+def dated(text: object) -> object:
+    """What begins with a date; a bare number, seconds of whatever, is no moment."""
+    if isinstance(text, str) and not re.match(r"\d{4}-\d\d-\d\d", text):
+        raise ValueError("a moment is told as 2026-05-01T12:00:00Z")
+    return text
+
+
+Moment = Annotated[datetime, BeforeValidator(dated)]
 
 
 class RequestBody(BaseModel):

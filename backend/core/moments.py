@@ -17,6 +17,14 @@ def utc_or_none(time_us: int | None) -> datetime | None:
     return None if time_us is None else utc(time_us)
 
 
+def microseconds(moment: datetime | None) -> int | None:
+    """A time as microseconds since 1970; without a zone it is taken as UTC."""
+    if moment is None:
+        return None
+    aware = moment if moment.tzinfo else moment.replace(tzinfo=UTC)
+    return int(aware.timestamp() * 1e6)
+
+
 # Whoever keeps the time by a network stays within a second, by hand within this; a date that is
 # wrong by less misleads nobody.
 CLOCK_SET_US = 60_000_000

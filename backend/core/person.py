@@ -47,6 +47,8 @@ class Permission(StrEnum):
     """How the server is: health, numbers, ports, where it keeps things."""
     BACK_UP = "back_up"
     """Take everything away as one file, accounts too."""
+    SEE_AUDIT = "see_audit"
+    """Who changed what, and when."""
     MANAGE_PEOPLE = "manage_people"
     """Accounts and keys of everybody."""
 
@@ -62,6 +64,7 @@ DEALER = RIDER | {
     P.SEE_LIBRARY,
     P.CHANGE_LIBRARY,
     P.SEE_SERVER,
+    P.SEE_AUDIT,
 }
 ENGINEER = DEALER | {P.SIMULATE}
 ADMIN = ENGINEER | {P.BACK_UP, P.MANAGE_PEOPLE}
@@ -117,6 +120,7 @@ class Caller:
     session_id: int | None = None
     key_id: int | None = None
     bike_id: int | None = None
+    key_name: str | None = None
 
     @property
     def owner_id(self) -> int | None:

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import Any, Protocol, TypeAlias
 
+from backend.core.actor import Actor
+from backend.core.audit import Action
 from backend.core.author import AuthorProof
 from backend.core.moments import utc
 
@@ -55,9 +57,11 @@ class RevisionLog(Protocol):
         crc32: int | None = None,
         state: str = "verified",
         only_if_changed: bool = False,
+        action: Action = Action.CONFIGURATION_FOUND,
+        actor: Actor | None = None,
     ) -> Revision:
         """Add a configuration the unit has; only_if_changed: unless the newest is the same, by
-        whomever. Raises StoreError."""
+        whomever. action, actor: for the audit; None for who acts here. Raises StoreError."""
         ...
 
     def list(self, unit_key: str, limit: int = ...) -> Sequence[Revision]:

@@ -242,7 +242,7 @@ async def delete_upload(upload_id: str, uploads: TheUploads) -> Response:
     waits for its turn goes, and whoever sent it and waits is told 404. Uploads without rides also
     go by themselves when their time is over.
     """
-    await run_in_threadpool(uploads.remove, upload_id)
+    await run_in_threadpool(uploads.remove, upload_id, audited=True)
     return _tus_response(204)
 
 

@@ -9,6 +9,7 @@ from dataclasses import asdict
 from functools import partial
 from typing import Any
 
+from backend.core.audit import Action, AuditEntry, Members, Note, differing, no_note
 from backend.errors import Conflict, FieldError, InvalidRequest, NotAllowed
 from backend.formats import NEEDS_MAPPING
 from backend.formats.questions import (
@@ -30,10 +31,11 @@ UNITS_OF = {offered.name: offered.units for offered in OFFERED}
 
 
 class TableMapping:
-    """The use cases; safe to call from any thread."""
+    """The use cases; safe to call from any thread. note: adds to the audit."""
 
-    def __init__(self, store: Store, uploads: Uploads) -> None:
+    def __init__(self, store: Store, uploads: Uploads, note: Note = no_note) -> None:
         self._store = store
+        self._note = note
         self._answers = TableAnswers(store.objects)
         self._uploads = uploads
 
@@ -74,10 +76,12 @@ class TableMapping:
         question = self._uploads.question(upload, answer if upload.ride_ids else None)
         check(question, answer)
         header, owner_id = question.header_sha256, upload.owner_id
+        before = self._uploads.answer_for(upload, header)
         if owner_id is None:
             self._answers.save(question, answer)
         else:
             self._store.uploads.keep_answer(upload.id, header, answer_to_json(answer))
+        self._note_answer(Action.TABLE_ANSWERED, header, before, answer)
         others = [*self._store.uploads.asking(NEEDS_MAPPING, header, owner_id)]
         if read_again:
             others += self._store.uploads.read_by(header, owner_id)
@@ -112,7 +116,19 @@ class TableMapping:
 
     def forget(self, header_sha256: str) -> None:
         """Ask again from now on; rides that were read stay as they are. Raises NotFound."""
+        stored = self._answers.get(header_sha256)
         self._answers.forget(header_sha256)
+        before = None if stored is None else stored.answer
+        self._note_answer(Action.TABLE_FORGOTTEN, header_sha256, before, None)
+
+    def _note_answer(
+        self, action: Action, header: str, before: TableAnswer | None, after: TableAnswer | None
+    ) -> None:
+        sides: list[Members] = [
+            {} if one is None else answer_to_json(one) for one in (before, after)
+        ]
+        old, new = differing(*sides)
+        self._note(AuditEntry(action, header, None, old, new))
 
 
 def check(question: TableQuestion, answer: TableAnswer) -> None:

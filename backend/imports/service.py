@@ -256,13 +256,14 @@ class Uploads:
         self._store.uploads.wait_again(upload_id, code)
         return self._submit(upload_id)
 
-    def remove(self, upload_id: str) -> None:
-        """Give an upload up and free its space, whatever became of it but rides.
+    def remove(self, upload_id: str, audited: bool = False) -> None:
+        """Give an upload up and free its space, whatever became of it but rides. audited: somebody
+        asked for it.
 
         Raises NotFound; Conflict, naming the rides, when some came from it, or while it is read.
         """
         with self._store.deciding, self._lanes.idle(upload_id):
-            self._store.uploads.remove(upload_id, now_us())
+            self._store.uploads.remove(upload_id, now_us(), audited)
 
     def recover(self) -> Sequence[Upload]:
         """Look at the files a crash or a stop left waiting; what became of those that were read."""

@@ -25,6 +25,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import BinaryIO
 
+from backend.core.audit import Action, AuditEntry, Note, no_note
 from backend.core.described import described
 from backend.core.ride import iso_utc
 from backend.core.unit_key import EBL, serial_of
@@ -135,11 +136,14 @@ class Stopping(SpindleError):
 class Collect:
     """Downloads of ride logs, one at a time for each unit. For any thread.
 
-    folder: where unfinished downloads stay.
+    folder: where unfinished downloads stay. note: adds to the audit.
     """
 
-    def __init__(self, devices: Devices, uploads: Uploads, folder: Path) -> None:
+    def __init__(
+        self, devices: Devices, uploads: Uploads, folder: Path, note: Note = no_note
+    ) -> None:
         self._devices = devices
+        self._note_done = note
         self._uploads = uploads
         self._folder = folder
         self._lock = threading.Lock()
@@ -241,6 +245,9 @@ class Collect:
             erases = None
         with self._lock:
             self._downloads.pop((key, log_id), None)
+        facts = {"log_id": log_id, "bytes": log.length}
+        entry = AuditEntry(Action.UNIT_LOG_ERASED, key, before=facts, unit_key=key)
+        self._note_done(entry)
         return ErasedLog(log_id, erases)
 
     def close(self) -> None:

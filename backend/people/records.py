@@ -13,10 +13,13 @@ from typing import Any, TypeAlias, TypeVar
 
 from sqlalchemy import ColumnElement, Connection, Row, Select, delete, func, insert, select, update
 
+from backend.core.actor import actor_of_person
+from backend.core.audit import Action, AuditEntry, Members, differing
 from backend.core.moments import utc, utc_or_none
 from backend.core.person import Permission, Person, RoleName, folded
 from backend.errors import Conflict, NotFound
 from backend.people.types import ApiKey
+from backend.store import audit
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database
 from backend.store.wall_clock import now_us
@@ -70,7 +73,12 @@ class AccountStore:
         def work(connection: Connection) -> Person:
             if only_first and admins(connection):
                 raise Conflict("There is an administrator already: sign in.", "not_the_first")
-            return added(connection, name, role, password)
+            person = added(connection, name, role, password)
+            # Whoever has the link is nobody yet.
+            who = actor_of_person(person) if only_first else None
+            action = Action.ACCOUNT_FIRST_ADDED if only_first else Action.ACCOUNT_ADDED
+            audit.append(connection, of_account(action, person, after=facts_of(person)), who)
+            return person
 
         return self._database.write(work)
 
@@ -81,6 +89,8 @@ class AccountStore:
 
         def work(connection: Connection) -> tuple[Person, Made]:
             person = added(connection, name, role, password)
+            entry = of_account(Action.ACCOUNT_ADDED, person, after=facts_of(person))
+            audit.append(connection, entry, actor_of_person(person))
             return person, then(connection, person)
 
         return self._database.write(work)
@@ -110,7 +120,14 @@ class AccountStore:
             require_admin(connection, had_admin)
             if sign_out:
                 connection.execute(delete(t.session).where(t.session.c.account_id == person_id))
-            return account_of(connection, person_id)
+            after = account_of(connection, person_id)
+            old, new = differing(facts_of(before), facts_of(after))
+            if new:
+                entry = of_account(Action.ACCOUNT_CHANGED, after, before=old, after=new)
+                audit.append(connection, entry)
+            if "password" in values:
+                audit.append(connection, of_account(Action.ACCOUNT_PASSWORD_SET, after))
+            return after
 
         return self._database.write(work)
 
@@ -121,7 +138,7 @@ class AccountStore:
         """
 
         def work(connection: Connection) -> None:
-            account_of(connection, person_id)
+            person = account_of(connection, person_id)
             had_admin = admins(connection) > 0
             keys = select(t.api_key.c.id).where(t.api_key.c.account_id == person_id)
             by_key = update(t.upload).where(t.upload.c.key_id.in_(keys))
@@ -137,6 +154,8 @@ class AccountStore:
                 connection.execute(update(table).where(own).values(owner_id=None))
             connection.execute(delete(t.account).where(t.account.c.id == person_id))
             require_admin(connection, had_admin)
+            entry = of_account(Action.ACCOUNT_REMOVED, person, before=facts_of(person))
+            audit.append(connection, entry)
 
         self._database.write(work)
 
@@ -165,6 +184,18 @@ def account_of(connection: Connection, person_id: int) -> Person:
     if row is None:
         raise NotFound(f"There is no account {person_id}.")
     return person_of(row)
+
+
+def facts_of(person: Person) -> Members:
+    """What the audit tells of an account; never a password, nor its hash."""
+    return {"name": person.name, "role": person.role, "enabled": person.enabled}
+
+
+def of_account(
+    action: Action, person: Person, before: Members | None = None, after: Members | None = None
+) -> AuditEntry:
+    """Something that was done to an account."""
+    return AuditEntry(action, person.id, person.name, before, after)
 
 
 def require_free(connection: Connection, name: str) -> None:
@@ -226,11 +257,15 @@ class SessionStore:
 
         def work(connection: Connection) -> bool:
             still = update(t.account).where(same & t.account.c.enabled)
-            if not connection.execute(still.values(signed_in_us=now_us)).rowcount:
+            row = connection.execute(still.values(signed_in_us=now_us).returning(t.account)).first()
+            if row is None:
                 return False
             connection.execute(delete(t.session).where(over(now_us)))
             connection.execute(insert(t.session).values(values))
             connection.execute(delete(t.session).where(mine & t.session.c.id.not_in(newest)))
+            person = person_of(row)
+            entry = of_account(Action.ACCOUNT_SIGNED_IN, person)
+            audit.append(connection, entry, actor_of_person(person))
             return True
 
         return self._database.write(work)
@@ -261,7 +296,14 @@ class SessionStore:
     def close_all(self, person_id: int) -> None:
         """Sign a person out everywhere. Raises StoreError."""
         gone = delete(t.session).where(t.session.c.account_id == person_id)
-        self._database.write(lambda connection: connection.execute(gone).rowcount)
+
+        def work(connection: Connection) -> None:
+            sessions = {"sessions": connection.execute(gone).rowcount}
+            person = account_of(connection, person_id)
+            entry = of_account(Action.ACCOUNT_SIGNED_OUT_EVERYWHERE, person, before=sessions)
+            audit.append(connection, entry)
+
+        self._database.write(work)
 
 
 def sessions(now_us: int) -> Select[Any]:
@@ -325,7 +367,9 @@ class KeyStore:
                 raise Conflict(f"There are {KEYS_MAX} keys, and no more.", "keys_full")
             made = insert(t.api_key).values(values).returning(t.api_key.c.id)
             number = connection.execute(made).scalar_one()
-            return key_of(connection.execute(keys().where(t.api_key.c.id == number)).one())
+            key = key_of(connection.execute(keys().where(t.api_key.c.id == number)).one())
+            audit.append(connection, of_key(Action.KEY_ADDED, key, after=facts_of_key(key)))
+            return key
 
         return self._database.write(work)
 
@@ -339,10 +383,15 @@ class KeyStore:
             mine = t.api_key.c.id == key_id
             if person_id is not None:
                 mine &= t.api_key.c.account_id == person_id
-            if connection.execute(select(t.api_key.c.id).where(mine)).first() is None:
+            row = connection.execute(keys().where(mine)).first()
+            if row is None:
                 raise NotFound(f"There is no key {key_id}.")
             still = mine & t.api_key.c.revoked_us.is_(None)
-            connection.execute(update(t.api_key).where(still).values(revoked_us=now_us))
+            ended = connection.execute(update(t.api_key).where(still).values(revoked_us=now_us))
+            if ended.rowcount:
+                key = key_of(row)
+                entry = of_key(Action.KEY_REVOKED, key, before=facts_of_key(key))
+                audit.append(connection, entry)
 
         self._database.write(work)
 
@@ -420,3 +469,21 @@ def key_of(row: Row[Any]) -> ApiKey:
         bike_id=row.bike_id,
         bike_name=row.bike_name,
     )
+
+
+def facts_of_key(key: ApiKey) -> Members:
+    """What the audit tells of a key; never its secret, nor the hash of it."""
+    expires_at = None if key.expires_at is None else key.expires_at.isoformat()
+    facts: Members = {
+        "person": key.person_name,
+        "scopes": list(key.scopes),
+        "expires_at": expires_at,
+    }
+    return facts if key.bike_id is None else {**facts, "bike": key.bike_name}
+
+
+def of_key(
+    action: Action, key: ApiKey, before: Members | None = None, after: Members | None = None
+) -> AuditEntry:
+    """Something that was done to a key."""
+    return AuditEntry(action, key.id, key.name, before, after)

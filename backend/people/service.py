@@ -175,7 +175,7 @@ class Keys:
 def caller_by(key: ApiKey, person: Person) -> Caller:
     """Who sends a key, with what it is for and the person's role still allows."""
     permissions = ROLES[person.role] & set(key.scopes)
-    return Caller(person, permissions, key_id=key.id, bike_id=key.bike_id)
+    return Caller(person, permissions, key_id=key.id, key_name=key.name, bike_id=key.bike_id)
 
 
 def good_name(name: str) -> str:

@@ -8,12 +8,13 @@ from typing import Annotated, Any, Literal
 from fastapi import APIRouter, Depends, Query, Request, Response, status
 from fastapi.responses import JSONResponse, StreamingResponse
 
+from backend.core.api_models import Moment
 from backend.core.channels import channel_names
 from backend.rides.files import MEDIA_TYPES
 from backend.rides.insight.ledger import EnergyLedger
 from backend.rides.insight.table_use import UseOfTable
 from backend.rides.models import Figure, Ride, RideList, RidePatch, Series, Track
-from backend.rides.query import Blur, Channels, ExportFormat, Moment, RideId, RideKind, as_file
+from backend.rides.query import Blur, Channels, ExportFormat, RideId, RideKind, as_file
 from backend.rides.replay.models import (
     AgainRequest,
     ClosedLoop,

@@ -6,8 +6,7 @@ sent: a file a ride and format, and a list of them.
     spindle-ride-7.fit ...   what could be made of each ride
     index.csv                last: every ride with its figures and files, and what could not be made
 
-What is cut short on the way has no directory at its end and opens nowhere. A cell that a
-spreadsheet would take for a formula begins with an apostrophe (OWASP, "CSV Injection").
+What is cut short on the way has no directory at its end and opens nowhere.
 """
 
 from __future__ import annotations
@@ -23,6 +22,7 @@ from zipfile import ZIP_DEFLATED, ZIP_STORED, ZipFile, ZipInfo
 import numpy as np
 
 from backend.core.ride import Ride, RideRows, iso_utc
+from backend.core.spreadsheet import guarded
 from backend.errors import FieldError, InvalidRequest, NotFound, SpindleError
 from backend.formats.export import fit, gpx
 from backend.formats.export.blurred import ShownRide, shown_ride, shown_rows
@@ -221,8 +221,6 @@ def part(rows: RideRows, start: int) -> RideRows:
 
 INDEX = "index.csv"
 FIGURES = ("distance_km", "moving_s", "rider_wh", "motor_wh")
-# What a spreadsheet begins a formula with, and what it passes over before it looks.
-DANGEROUS = ("=", "+", "-", "@", "\t", "\r", "\n")
 # These are packed already.
 PACKED = ("parquet", "original")
 
@@ -296,8 +294,3 @@ def facts(ride: Ride) -> list[object]:
     figures = [getattr(ride.summary, name, None) for name in FIGURES]
     numbers = ["" if value is None else round(value, 3) for value in figures]
     return [iso_utc(ride.started_us), *map(guarded, words), *numbers]
-
-
-def guarded(text: str) -> str:
-    """Text that no spreadsheet computes."""
-    return f"'{text}" if text.startswith(DANGEROUS) else text

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
-from datetime import datetime
 from typing import Annotated, Literal
 
 from fastapi import Path, Query
 from fastapi.responses import StreamingResponse
-from pydantic import BeforeValidator
 
 from backend.rides.files import Export
 from backend.web.permissions import OwnerId
@@ -64,16 +61,6 @@ class RideKind:
     def filters(self) -> dict[str, object]:
         """As the service asks for it."""
         return self._filters
-
-
-def dated(text: object) -> object:
-    """What begins with a date; a bare number, seconds of whatever, is no moment."""
-    if isinstance(text, str) and not re.match(r"\d{4}-\d\d-\d\d", text):
-        raise ValueError("a moment is told as 2026-05-01T12:00:00Z")
-    return text
-
-
-Moment = Annotated[datetime, BeforeValidator(dated)]
 
 
 def as_file(export: Export) -> StreamingResponse:

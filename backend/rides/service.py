@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
-from datetime import UTC, datetime
+from datetime import datetime
 from typing import Any
 
+from backend.core.moments import microseconds
 from backend.core.ride import BAD, Ride, RideSummary
 from backend.errors import InvalidRequest, NotFound
 from backend.rides.files import Export, archive, export, share
@@ -85,7 +86,9 @@ class Rides:
         doubts_accepted: bool | None = None,
     ) -> dict[str, object]:
         """Change what people wrote about a ride. Raises NotFound, InvalidRequest."""
-        return self._as_json(self._store.rides.patch(ride_id, name, notes, tags, doubts_accepted))
+        return self._as_json(
+            self._store.rides.patch(ride_id, name, notes, tags, doubts_accepted, audited=True)
+        )
 
     def require_own(self, ride_ids: Sequence[int], owner_id: int | None) -> None:
         """Raises NotFound for a ride that is not this account's; None has all."""
@@ -174,11 +177,3 @@ class Rides:
         elif ride.object_key is not None:
             damage = self._store.soundness.cached_damage(expected_of(ride))
         return {**ride.as_json(), "damage": damage}
-
-
-def microseconds(moment: datetime | None) -> int | None:
-    """A time as microseconds since 1970; without a zone it is taken as UTC."""
-    if moment is None:
-        return None
-    aware = moment if moment.tzinfo else moment.replace(tzinfo=UTC)
-    return int(aware.timestamp() * 1e6)

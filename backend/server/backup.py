@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import UTC, datetime
 
+from backend.core.audit import Action, AuditEntry, Note, no_note
 from backend.store import Store, StorePlace, backup_of, place_of
 
 
@@ -18,10 +19,12 @@ class Backup:
 
 
 class StoreService:
-    """The store as a whole. For any thread; both raise StoreError. version: of this Spindle."""
+    """The store as a whole. For any thread; both raise StoreError. version: of this Spindle.
+    note: adds to the audit."""
 
-    def __init__(self, store: Store, version: str) -> None:
+    def __init__(self, store: Store, version: str, note: Note = no_note) -> None:
         self._store = store
+        self._note = note
         self._version = version
 
     def place(self) -> StorePlace:
@@ -31,4 +34,8 @@ class StoreService:
     def backup(self) -> Backup:
         """All of it at this moment."""
         made = datetime.now(UTC).strftime("%Y-%m-%dT%H%MZ")
-        return Backup(f"spindle-backup-{made}.zip", backup_of(self._store, self._version))
+        file_name = f"spindle-backup-{made}.zip"
+        chunks = backup_of(self._store, self._version)
+        # Copied, and nothing of it has left yet. It is not in the copy itself.
+        self._note(AuditEntry(Action.STORE_BACKED_UP, name=file_name))
+        return Backup(file_name, chunks)

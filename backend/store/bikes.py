@@ -13,9 +13,12 @@ from dataclasses import dataclass
 from sqlalchemy import Connection, Table, insert, select
 from sqlalchemy.dialects import postgresql, sqlite
 
+from backend.core.actor import SERVER
+from backend.core.audit import Action, AuditEntry
 from backend.core.person import ANYBODY, Sender
 from backend.core.ride import RideContext
 from backend.core.unit_key import bike_name, identifies_unit
+from backend.store import audit
 from backend.store.sql import tables as t
 
 
@@ -104,6 +107,9 @@ def bike_of_unit(
         bike_id = int(connection.execute(made).scalar_one())
         on_it = insert(t.bike_unit).values(bike_id=bike_id, unit_key=key, from_us=now_us)
         connection.execute(on_it)
+        facts = {"unit_key": key, "model": unit.model}
+        entry = AuditEntry(Action.UNIT_FIRST_SEEN, key, name, None, facts, "", key, bike_id)
+        audit.append(connection, entry, SERVER)
     on_now = select(t.bike_unit.c.bike_id).where(
         t.bike_unit.c.unit_key == key, t.bike_unit.c.to_us.is_(None)
     )

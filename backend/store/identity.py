@@ -15,7 +15,9 @@ from dataclasses import dataclass
 
 from sqlalchemy import Connection, delete, insert, select, update
 
+from backend.core.audit import Action, AuditEntry, Members
 from backend.errors import StoreError
+from backend.store import audit
 from backend.store.inspect_schema import DAMAGED, FOREIGN, DatabaseView
 from backend.store.objects import FileObjects
 from backend.store.sql import tables as t
@@ -99,3 +101,10 @@ def write_identity(connection: Connection, store_id: str, server_id: str, rebuil
     connection.execute(
         insert(t.store_identity).values(store_id=store_id, created_us=now_us, **values)
     )
+
+
+def finish_rebuild(connection: Connection, store_id: str, server_id: str, facts: Members) -> None:
+    """Take the mark of a rebuild away. In the place of a destroyed database the audit begins anew
+    and says so, with `facts`."""
+    write_identity(connection, store_id, server_id, rebuilding=False)
+    audit.append(connection, AuditEntry(Action.STORE_REBUILT, after=facts))

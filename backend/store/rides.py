@@ -26,6 +26,7 @@ from backend.core.ride import BAD, DONE, LIVE, SUMMARY_METHOD, Ride, RideContext
 from backend.core.ride_events import RideEvent
 from backend.core.ride_tags import clean_tags
 from backend.errors import Conflict, InvalidRequest, NotFound, StoreError
+from backend.store import audit, ride_audit
 from backend.store.deletion import (
     FILLED,
     MADE,
@@ -402,10 +403,11 @@ class RideStore:
         notes: str | None = None,
         tags: Sequence[str] | None = None,
         doubts_accepted: bool | None = None,
+        audited: bool = False,
     ) -> Ride:
         """Change what people wrote about a ride. Raises NotFound, InvalidRequest.
 
-        doubts_accepted: all that it has now, or none.
+        doubts_accepted: all that it has now, or none. audited: somebody asked for it.
         """
         cleaned = None if tags is None else clean_tags(tags)
         # PostgreSQL has no text with a NUL in it.
@@ -427,6 +429,10 @@ class RideStore:
             if doubts_accepted is not None:
                 accept_doubts(connection, ride, doubts_accepted)
             save_words(connection, self._objects, ride_id, even_if_empty=True)
+            if audited:
+                doubts = [one.code for one in ride.doubts] if doubts_accepted else []
+                accepted = None if doubts_accepted is None else doubts
+                ride_audit.note_changed(connection, ride, {**changes, "tags": cleaned}, accepted)
 
         if changes or cleaned is not None or doubts_accepted is not None:
             self._database.write(work)
@@ -447,7 +453,9 @@ class RideStore:
             recorded = ride_id in self._recording
             current_state: str | None = LIVE if recorded else connection.execute(state).scalar()
             if current_state not in (None, LIVE):
+                entry = ride_audit.deletion_of(connection, ride_id)
                 forget_ride(connection, ride_id, now_us)
+                audit.append(connection, entry)
             return current_state
 
         found = self._database.write(work)

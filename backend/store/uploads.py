@@ -20,8 +20,10 @@ from typing import Any
 
 from sqlalchemy import Connection, Select, insert, select, update
 
+from backend.core.audit import Action, AuditEntry
 from backend.core.person import ANYBODY, Sender
 from backend.errors import BadFile, Conflict, NotFound, StoreError
+from backend.store import audit
 from backend.store.deletion import MADE, RELATED, Deletions, forget_upload, join_source
 from backend.store.objects import Objects, content_key, file_sha256
 from backend.store.ride_table import sender_of, upload_key
@@ -305,23 +307,29 @@ class UploadStore:
         """An upload that was concluded waits to be read once more. code: why."""
         self._set(token, state="queued", code=code, detail=None, expires_us=None)
 
-    def remove(self, token: str, now_us: int) -> None:
-        """Forget an upload that no ride came from, and its bytes.
+    def remove(self, token: str, now_us: int, audited: bool = False) -> None:
+        """Forget an upload that no ride came from, and its bytes. audited: somebody asked for it.
 
         Raises NotFound; Conflict, naming the rides, when there are some.
         """
 
         def work(connection: Connection) -> None:
             mine = t.upload.c.token == token
-            key = connection.execute(select(t.upload.c.id).where(mine)).scalar()
-            if key is None:
+            columns = (t.upload.c.id, t.upload.c.length, t.upload.c.sha256)
+            row = connection.execute(select(*columns).where(mine)).first()
+            if row is None:
                 raise NotFound(f"There is no upload {token}.")
+            key = row.id
             link = t.ride_source.c
             query = select(link.ride_id).where(link.upload_id == key, link.part != RELATED)
             rides = connection.execute(query.order_by(link.ride_id)).scalars().all()
             if rides:
                 raise Conflict(rides_sentence(token, rides), code="has_rides")
             forget_upload(connection, key, now_us)
+            if audited:
+                # Not its name: that is a word of its owner's, and goes.
+                facts = {"bytes": row.length, "sha256": row.sha256}
+                audit.append(connection, AuditEntry(Action.UPLOAD_DELETED, token, before=facts))
 
         self._database.write(work)
         self._deletions.sweep(now_us)

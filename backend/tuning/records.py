@@ -11,15 +11,20 @@ from typing import Any
 
 from sqlalchemy import Connection, Row, Select, insert, select, update
 
+from backend.core.actor import Actor
+from backend.core.audit import Action, AuditEntry, Members, differing
 from backend.core.author import proof_of
 from backend.core.canonical_json import sha256_of
 from backend.core.revision import Revision
 from backend.law.limit_proof import LimitProof
+from backend.store import audit
 from backend.store.bikes import bike_of_unit
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database
 
 REVISIONS_MAX = 1000
+# Of these the reason is their author's; of others it is Spindle's own.
+GIVEN_A_REASON = (Action.CONFIGURATION_WRITTEN, Action.CONFIGURATION_TRIED)
 
 
 class RevisionStore:
@@ -39,12 +44,14 @@ class RevisionStore:
         crc32: int | None = None,
         state: str = "verified",
         only_if_changed: bool = False,
+        action: Action = Action.CONFIGURATION_FOUND,
+        actor: Actor | None = None,
     ) -> Revision:
         """Add a configuration that the unit has; returns it with its number.
 
         parameters: the whole configuration as plain JSON. only_if_changed: nothing is added where
-        the newest has the same checksum, whoever added it just now; that one is returned. Raises
-        StoreError.
+        the newest has the same checksum, whoever added it just now; that one is returned. action,
+        actor: for the audit; None for who acts here. Raises StoreError.
         """
         values = {
             "body": dict(parameters),
@@ -70,7 +77,12 @@ class RevisionStore:
                 "seq": last.seq + 1 if last else 1,
             }
             added = insert(t.revision).values(**place, **values).returning(t.revision)
-            return revision_from(connection.execute(added).one())
+            revision = revision_from(connection.execute(added).one())
+            old, new = sides_of(revision, last)
+            why = reason if action in GIVEN_A_REASON else ""
+            entry = AuditEntry(action, revision.seq, None, old, new, why, unit_key)
+            audit.append(connection, entry, actor)
+            return revision
 
         return self._database.write(work)
 
@@ -79,6 +91,16 @@ class RevisionStore:
         query = newest_of(unit_key, min(limit, REVISIONS_MAX))
         rows = self._database.read(lambda c: c.execute(query).all())
         return tuple(map(revision_from, rows))
+
+
+def sides_of(revision: Revision, last: Row[Any] | None) -> tuple[Members, Members]:
+    """Before and after of a configuration: as its author changed it, else against the one before,
+    if that is known."""
+    if revision.changed or last is None:
+        changed = revision.changed
+        old = {change["name"]: change["old"] for change in changed}
+        return old, {change["name"]: change["new"] for change in changed}
+    return differing(last.body, revision.parameters)
 
 
 def newest_of(unit_key: str, limit: int) -> Select[Any]:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 
+from backend.core.actor import SERVER, Actor, actor_now
+from backend.core.audit import Action
 from backend.core.revision import Revision, RevisionLog
 from backend.device.configuration import ConfigImage
 from backend.errors import StoreError
@@ -22,13 +24,16 @@ TRIED = "provisional"
 
 @dataclass(frozen=True)
 class Meant:
-    """A change as the log is to have it. crc32: of the configuration it makes."""
+    """A change as the log is to have it. crc32: of the configuration it makes. action, actor: for
+    the audit; who acts where it is made, however late it is added."""
 
     crc32: int
     changed: Sequence[ParameterChange]
     reason: str
     author: str
     state: str
+    action: Action
+    actor: Actor = field(default_factory=actor_now)
 
 
 class RevisionBook:
@@ -63,7 +68,8 @@ class RevisionBook:
         if newest is None or newest.crc32 != config.crc32:
             rolled_back = newest is not None and newest.state == TRIED
             reason = ROLLED_BACK_REASON if rolled_back else FOUND_REASON
-            meant = Meant(config.crc32, (), reason, author="", state=VERIFIED)
+            found = Action.CONFIGURATION_ROLLED_BACK if rolled_back else Action.CONFIGURATION_FOUND
+            meant = Meant(config.crc32, (), reason, "", VERIFIED, found, SERVER)
             if open_change is not None and open_change.crc32 == config.crc32:
                 # The change was made after all: the log has it with its author's own reason.
                 meant = open_change
@@ -92,6 +98,8 @@ class RevisionBook:
             config.crc32,
             meant.state,
             only_if_changed,
+            meant.action,
+            meant.actor,
         )
 
     def _newest(self, unit: str) -> Revision | None:

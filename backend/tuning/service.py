@@ -14,6 +14,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import asdict
 from datetime import UTC, datetime
 
+from backend.core.audit import Action
 from backend.core.revision import Revision, RevisionLog
 from backend.device.capability import Capability
 from backend.device.configuration import NO_TRIAL, ConfigImage, ParameterTable, Value
@@ -199,7 +200,12 @@ class Tuning:
             writes = bool(changed) or unit.settings_are_lost()
             if writes:
                 crc32 = unit.parameters.crc32_of(intended)
-                meant = Meant(crc32, changed, reason, author, TRIED if confirm_s else VERIFIED)
+                state, action = (
+                    (TRIED, Action.CONFIGURATION_TRIED)
+                    if confirm_s
+                    else (VERIFIED, Action.CONFIGURATION_WRITTEN)
+                )
+                meant = Meant(crc32, changed, reason, author, state, action)
                 try:
                     written = self._commit(
                         device_id, key, base, intended, changed, confirm_s, permit
@@ -243,7 +249,9 @@ class Tuning:
                 lambda unit: unit.outcome_of_confirm(tried),
             )
             reason = f"Kept after its trial: {meant.reason}" if meant.reason else CONFIRMED_REASON
-            self._book.note(key, confirmed, Meant(confirmed.crc32, (), reason, author, VERIFIED))
+            done = Action.CONFIGURATION_CONFIRMED
+            kept = Meant(confirmed.crc32, (), reason, author, VERIFIED, done)
+            self._book.note(key, confirmed, kept)
         return ConfigChange.of(key, confirmed)
 
     def rollback_config(self, device_id: str, author: str = "") -> ConfigChange:
@@ -263,7 +271,8 @@ class Tuning:
                 lambda unit: unit.outcome_of_rollback(tried),
             )
             changed = differences(tried.parameters, rolled_back.parameters)
-            meant = Meant(rolled_back.crc32, changed, RETURNED_REASON, author, VERIFIED)
+            done = Action.CONFIGURATION_ROLLED_BACK
+            meant = Meant(rolled_back.crc32, changed, RETURNED_REASON, author, VERIFIED, done)
             self._book.note(key, rolled_back, meant)
         return ConfigChange.of(key, rolled_back, changed=changed)
 

@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable, Mapping
 from datetime import UTC, datetime
 
+from backend.core.audit import Action, AuditEntry, Note, differing, no_note
 from backend.device.capability import Capability
 from backend.device.configuration import Value, ValuesOnTrial
 from backend.errors import FieldError, InvalidRequest, LimitViolation, NoAnswer
@@ -17,10 +18,14 @@ TTL_S_MAX = 255
 
 
 class TrialTuning:
-    """Values on top of a unit's configuration. For any thread. now_s: Unix time."""
+    """Values on top of a unit's configuration. For any thread. now_s: Unix time. note: adds to the
+    audit."""
 
-    def __init__(self, devices: Devices, now_s: Callable[[], float] = time.time) -> None:
+    def __init__(
+        self, devices: Devices, now_s: Callable[[], float] = time.time, note: Note = no_note
+    ) -> None:
         self._devices = devices
+        self._note = note
         self._now_s = now_s
 
     def read(self, device_id: str) -> TrialValues:
@@ -49,13 +54,13 @@ class TrialTuning:
             raise LimitViolation(" ".join(fault.message for fault in faults), fields=faults)
         rounded = unit.parameters.rounded(intended)
         values = {name: rounded[name] for name in changes}
+        before = {name: in_force[name] for name in changes}
         try:
             with telling("unknown"):
                 state = unit.set_trial_values(values, ttl_s)
         except NoAnswer as error:
             if error.outcome != "unknown":
                 raise
-            before = {name: in_force[name] for name in changes}
             state = find_outcome(
                 self._devices,
                 device_id,
@@ -63,6 +68,10 @@ class TrialTuning:
                 lambda unit: unit.outcome_of_trial_values(before, values),
                 error,
             )
+        old, new = differing(before, values)
+        if new:
+            entry = AuditEntry(Action.UNIT_VALUES_TRIED, key, None, old, new, unit_key=key)
+            self._note(entry)
         return self._view(state)
 
     def end(self, device_id: str) -> TrialValues:
@@ -81,6 +90,7 @@ class TrialTuning:
                 lambda unit: unit.outcome_of_trial_values_end(),
                 error,
             )
+        self._note(AuditEntry(Action.UNIT_VALUES_ENDED, key, unit_key=key))
         return self._view(state)
 
     def _view(self, state: ValuesOnTrial) -> TrialValues:

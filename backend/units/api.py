@@ -53,7 +53,7 @@ def add_device(body: DeviceRequest, devices: AllDevices, response: Response) -> 
     The same url again is the same device, and may give its unit a name.
     """
     check_url(body.url)
-    device = devices.add(body.url, name=body.name)
+    device = devices.add(body.url, name=body.name, audited=True)
     response.headers["location"] = f"/api/v1/devices/{device.id}"
     return device
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from backend.core.audit import Action, AuditEntry, Note, no_note
 from backend.device.readings import Fault, Snapshot, WearCounters, last_values
 from backend.device.states import LinkState
 from backend.errors import CapabilityMissing
@@ -15,11 +16,13 @@ from backend.units.service import Devices
 class Inspection:
     """What units say of themselves when they are asked. For any thread.
 
-    All of it raises NotFound, and NoAnswer with the reason when the unit is not there.
+    All of it raises NotFound, and NoAnswer with the reason when the unit is not there. note: adds
+    to the audit.
     """
 
-    def __init__(self, devices: Devices) -> None:
+    def __init__(self, devices: Devices, note: Note = no_note) -> None:
         self._devices = devices
+        self._note = note
 
     def snapshot(self, device_id: str) -> Snapshot:
         """The newest value of every channel: of the stream, or asked of the unit."""
@@ -41,9 +44,16 @@ class Inspection:
         After a NoAnswer whose outcome is not known they may be forgotten: list them again. Raises
         NameFirst.
         """
+        with telling("unchanged"):
+            key, unit = self._devices.own(device_id)
+            before = sorted(fault.name for fault in unit.faults())
         with telling("unknown"):
-            _, unit = self._devices.own(device_id)
-            return unit.clear_faults()
+            left = unit.clear_faults()
+        after = sorted(fault.name for fault in left)
+        if after != before:
+            action, sides = Action.UNIT_FAULTS_CLEARED, ({"faults": before}, {"faults": after})
+            self._note(AuditEntry(action, key, None, *sides, unit_key=key))
+        return left
 
     def wear_counters(self, device_id: str) -> WearCounters:
         """What the unit knows of its own wear. Raises Conflict of one we do not understand."""

@@ -13,6 +13,7 @@ from dataclasses import asdict
 from datetime import UTC, datetime
 from pathlib import Path
 
+from backend.core.audit import Action, AuditEntry, Note, no_note
 from backend.core.channels import ChannelSpec
 from backend.core.unit_key import identifies_unit, serial_of, unit_key
 from backend.device.capability import Capability
@@ -109,7 +110,7 @@ class Devices:
     streaming: whether rows of every channel are to come by themselves. opener: how a url becomes a
     link. schemas: where descriptions of units with another firmware are kept. families: the makes
     there are. bike_of: the bike that the unit with a key is on, told at once. last_seen: the unit
-    that was last there over the connection with a url, told at once.
+    that was last there over the connection with a url, told at once. note: adds to the audit.
     """
 
     def __init__(
@@ -121,7 +122,9 @@ class Devices:
         families: Families = FAMILIES,
         bike_of: Callable[[str], int | None] = lambda key: None,
         last_seen: Callable[[str], Sighting | None] = lambda url: None,
+        note: Note = no_note,
     ) -> None:
+        self._note = note
         self._streaming = streaming
         self._schemas = {} if schemas is None else schemas
         self._families = families
@@ -134,18 +137,26 @@ class Devices:
 
     # ------------------------------------------------------------------ which there are
 
-    def add(self, url: str, wait_s: float = IDENTITY_WAIT_S, name: str | None = None) -> Device:
+    def add(
+        self,
+        url: str,
+        wait_s: float = IDENTITY_WAIT_S,
+        name: str | None = None,
+        audited: bool = False,
+    ) -> Device:
         """Open a unit; it connects, and reconnects, in the background.
 
         Waits up to `wait_s` for the unit to say who it is. name: its owner's for the unit. The same
         url twice is the same device, and another name for it counts from then on. A lost connection
-        to the same unit gives way: a unit that is plugged in again has another port. Raises
-        InvalidRequest for a bad url, Conflict when the unit is here by another way already.
+        to the same unit gives way: a unit that is plugged in again has another port. audited:
+        somebody asked for it, and not the settings. Raises InvalidRequest for a bad url, Conflict
+        when the unit is here by another way already.
         """
         url = canonical(url)
         kind = kind_of(url)
         with self._lock:
             device = self._devices.get(url)
+            is_new = device is None
             if device is None:
                 device = self._open(url, kind, name)
         device.unit.driver.probed.wait(wait_s)
@@ -159,13 +170,22 @@ class Devices:
                 f"The unit behind {url} is {device.unit_key}, which is connected as "
                 f"{twin.id} over {twin.url} already. Remove that one first."
             )
+        if is_new and audited:
+            self._note(of_unit(Action.UNIT_CONNECTED, device, None))
         if name is not None and name != device.name:
+            before = device.name
             self._name(device, name)
+            if audited:
+                self._note(of_unit(Action.UNIT_NAMED, device, {"name": before}))
         return self._view(device)
 
     def remove(self, device_id: str) -> None:
         """Let a unit go and give its port back; a simulated one ends. Raises NotFound."""
-        self._close(self._find(device_id))
+        device = self._find(device_id)
+        key = device.unit_key
+        self._close(device)
+        facts = {"url": device.url}
+        self._note(AuditEntry(Action.UNIT_REMOVED, key, device.name, facts, unit_key=key))
 
     def list(self) -> Sequence[Device]:
         """Every device in the order of its adding."""
@@ -392,6 +412,13 @@ class Devices:
             bike_id=self._bike_of(key) if key is not None else None,
             last_seen_at=last_seen_at,
         )
+
+
+def of_unit(action: Action, device: _Device, before: dict[str, str | None] | None) -> AuditEntry:
+    """Something that was done to a connection, for the audit."""
+    key = device.unit_key
+    after = {"url": device.url} | ({} if device.name is None else {"name": device.name})
+    return AuditEntry(action, key, device.name, before, after, unit_key=key)
 
 
 def _bound(watcher: Watcher, device_id: str) -> Listener:

@@ -13,7 +13,7 @@ from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddle
 
 from backend.core.person import Permission
 from backend.web import api_docs, pages, problem
-from backend.web.authentication import Authenticator, AuthMiddleware
+from backend.web.authentication import ActorMiddleware, Authenticator, AuthMiddleware
 from backend.web.pages import RootPath
 from backend.web.permissions import Anyone, Own, Ownership, require_permission
 from backend.web.problem import Problem, refusals, refusals_only
@@ -118,7 +118,10 @@ def _protect(app: FastAPI, settings: WebSettings, operations: Operations) -> Non
         upload_bytes_max=settings.upload_bytes_max,
         upload_paths=(f"{PREFIX}/uploads", f"{PREFIX}/rides/import"),
     )
-    if (authenticator := app.state.authenticator) is not None:
+    authenticator = app.state.authenticator
+    signs_in = authenticator is not None
+    app.add_middleware(ActorMiddleware, author=settings.author, signs_in=signs_in)
+    if authenticator is not None:
         strangers = operations.strangers
         app.add_middleware(AuthMiddleware, authenticator=authenticator, strangers=strangers)
     app.add_middleware(SameOriginOnly, hosts=settings.hosts, guarded=settings.guarded)

@@ -21,6 +21,7 @@ from starlette.requests import HTTPConnection
 from starlette.responses import Response
 from starlette.types import ASGIApp, Receive, Scope, Send
 
+from backend.core.actor import Actor, acting, actor_of_caller
 from backend.core.author import AUTHOR_MAX, SignedInName, tidy_author
 from backend.core.person import Caller
 from backend.errors import NotSignedIn, SpindleError
@@ -94,6 +95,32 @@ class AuthMiddleware:
             return self.authenticator.of_ticket(ticket)
         token = token_in(connection)
         return None if token is None else self.authenticator.of_session(token)
+
+
+class ActorMiddleware:
+    """Says who acts in a request, to whatever writes. author: as of `WebSettings`."""
+
+    def __init__(self, app: ASGIApp, author: str, signs_in: bool) -> None:
+        self.app = app
+        self.author = author
+        self.signs_in = signs_in
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] not in ("http", "websocket"):
+            await self.app(scope, receive, send)
+            return
+        with acting(self._actor(scope)):
+            await self.app(scope, receive, send)
+
+    def _actor(self, scope: Scope) -> Actor:
+        caller: Caller | None = scope.get("state", {}).get("caller")
+        if caller is not None:
+            return actor_of_caller(caller)
+        if self.signs_in:
+            # A stranger is nobody until they are let in.
+            return Actor("person", "")
+        named = HTTPConnection(scope).headers.get("spindle-author", "")
+        return Actor("person", tidy_author(unquote(named)) or self.author)
 
 
 def is_page(path: str) -> bool:

@@ -28,6 +28,7 @@ class MemoryRevisions(RevisionLog):
         bound.apply_defaults()
         noted = dict(bound.arguments)
         del noted["self"]
+        del noted["action"], noted["actor"]
         unless_known = noted.pop("only_if_changed")
         rows = self.kept.setdefault(noted["unit_key"], [])
         if unless_known and rows and rows[-1].crc32 == noted["crc32"]:

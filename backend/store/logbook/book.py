@@ -8,9 +8,11 @@ from functools import partial
 
 from sqlalchemy import Connection, delete, func, insert, select
 
+from backend.core.audit import Action, AuditEntry
 from backend.core.calendar import Period
 from backend.core.ride_tags import clean_tags
 from backend.errors import NotFound
+from backend.store import audit
 from backend.store.logbook import totals
 from backend.store.logbook.derived import note_words
 from backend.store.logbook.find import Sought, count_of, ids_of
@@ -98,15 +100,28 @@ class Logbook:
             }
 
         def work(connection: Connection, some: Sequence[int]) -> None:
-            for ride_id, tags in tags_for(connection, some).items():
+            before = tags_of(connection, some)
+            tagged = tags_for(connection, some)
+            for ride_id, tags in tagged.items():
                 set_tags(connection, ride_id, tags)
                 save_words(connection, self._objects, ride_id, even_if_empty=True)
+            changed = [one for one, tags in tagged.items() if {*tags} != {*before.get(one, ())}]
+            note_tagged(connection, changed)
 
         tagged = self._database.read(lambda c: tags_for(c, ride_ids))
         if missing := [ride_id for ride_id in ride_ids if ride_id not in tagged]:
             raise NotFound(f"There is no ride {missing[0]}.")
         for start in range(0, len(ride_ids), RIDES_AT_ONCE):
             self._database.write(partial(work, some=ride_ids[start : start + RIDES_AT_ONCE]))
+
+
+def note_tagged(connection: Connection, ride_ids: Sequence[int]) -> None:
+    """Note that rides have other tags; which, only the rides tell."""
+    columns = (t.ride.c.id, t.ride.c.bike_id)
+    for row in connection.execute(select(*columns).where(t.ride.c.id.in_(ride_ids))).all():
+        after = {"changed": ["tags"]}
+        entry = AuditEntry(Action.RIDE_CHANGED, row.id, after=after, bike_id=row.bike_id)
+        audit.append(connection, entry)
 
 
 def set_tags(connection: Connection, ride_id: int, tags: Sequence[str]) -> None:

@@ -7,6 +7,7 @@ PostgreSQL has its own writers: there the same calls run on the caller's thread.
 
 from __future__ import annotations
 
+import contextvars
 import logging
 import sqlite3
 import threading
@@ -36,14 +37,16 @@ LOG = logging.getLogger(__name__)
 Result = TypeVar("Result")
 
 # The newest migration; a test holds it against the files in migrations/versions.
-HEAD_REVISION = "0023"
+HEAD_REVISION = "0024"
 # What is opened beside it: nothing yet, and the schema of release 0.5.
-OLDER_REVISIONS = (None, "0011", "0019", "0020", "0021", "0022")
+OLDER_REVISIONS = (None, "0011", "0019", "0020", "0021", "0022", "0023")
 # Bounds the memory of writes that wait for a slow disk: about 256 one-second tails.
 WRITES_WAITING_MAX = 256
 BUSY_TIMEOUT_MS = 10_000
 # The database's name among the parts of the store that may refuse to be written.
 PART = "database"
+# What a transaction does last, among what a connection knows.
+LAST = "done_last"
 # Some milliseconds of the writing thread.
 PAGES_AT_ONCE = 500
 
@@ -78,14 +81,15 @@ class Database:
             ) from error
 
     def submit(self, work: Callable[[Connection], Result]) -> Future[Result]:
-        """Run `work` in one transaction on the writing thread; blocks while too many wait."""
+        """Run `work` in one transaction on the writing thread, in a copy of the caller's context;
+        blocks while too many wait."""
         if not self.one_writer:
             return done(lambda: self._transaction(work))
         if not self._waiting.acquire(blocking=False):
             self.watch.note(PART, QUEUE_FULL)
             self._waiting.acquire()
         try:
-            future = self._writer.submit(self._transaction, work)
+            future = self._writer.submit(contextvars.copy_context().run, self._transaction, work)
         except RuntimeError as error:
             self._waiting.release()
             raise StoreError("The store is closed: nothing was saved.") from error
@@ -153,12 +157,25 @@ class Database:
             with self._writing_engine.begin() as connection:
                 if self.fence is not None:
                     self.fence(connection)
+                last: list[Callable[[Connection], None]] = []
+                connection.info[LAST] = last
                 result = work(connection)
+                for finish in last:
+                    finish(connection)
         except SQLAlchemyError as error:
             lost = "The database did not save the change"
             raise self.watch.refused(PART, error, lost) from error
         self.watch.worked(PART)
         return result
+
+
+def do_last(connection: Connection, work: Callable[[Connection], None]) -> None:
+    """Have something done in a transaction of `Database` behind all else that it does.
+
+    For what holds off all others until the commit: on PostgreSQL two that hold it and still want
+    each other's rows would wait for ever.
+    """
+    connection.info[LAST].append(work)
 
 
 def count_up(connection: Connection) -> None:

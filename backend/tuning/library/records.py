@@ -12,9 +12,11 @@ from typing import Any
 
 from sqlalchemy import Connection, Row, Select, func, insert, select, update
 
+from backend.core.audit import Action, AuditEntry, Members, differing
 from backend.core.author import proof_of
 from backend.core.canonical_json import sha256_of
 from backend.errors import Conflict
+from backend.store import audit
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database
 from backend.store.wall_clock import now_us
@@ -72,7 +74,9 @@ class LibraryStore:
             values = {"name": body["name"], "created_us": now_us()}
             made = insert(t.library_item).values(values).returning(t.library_item.c.id)
             item_id = int(connection.execute(made).scalar_one())
-            return append(connection, item_id, 1, body, author)
+            version = append(connection, item_id, 1, body, author)
+            audit.append(connection, entry_of(Action.LIBRARY_ITEM_ADDED, version, {}, flat(body)))
+            return version
 
         with self._turn:
             return self._database.write(work)
@@ -107,7 +111,12 @@ class LibraryStore:
             mine = t.library_item.c.id == item_id
             connection.execute(update(t.library_item).where(mine).values(name=name))
             stored = now.body if body is None else body
-            return append(connection, item_id, now.seq + 1, stored, author, deleted=body is None)
+            version = append(connection, item_id, now.seq + 1, stored, author, deleted=body is None)
+            gone = body is None
+            action = Action.LIBRARY_ITEM_REMOVED if gone else Action.LIBRARY_ITEM_CHANGED
+            entry = entry_of(action, version, state_of(now), state_of(version))
+            audit.append(connection, entry)
+            return version
 
         with self._turn:
             return self._database.write(work)
@@ -164,3 +173,22 @@ def append(
     connection.execute(insert(t.library_version).values(values))
     query = versions().where(t.library_version.c.item_id == item_id, t.library_version.c.seq == seq)
     return version_of(connection.execute(query).one())
+
+
+def flat(body: Body) -> Members:
+    """A document's members for the audit, each parameter under its own name."""
+    values = {name: one.get("value") for name, one in body.get("parameters", {}).items()}
+    return {name: value for name, value in body.items() if name != "parameters"} | values
+
+
+def state_of(version: LibraryVersion) -> Members:
+    """As `flat`, of a state that may be a deletion."""
+    return {**flat(version.body), "deleted": version.deleted}
+
+
+def entry_of(
+    action: Action, version: LibraryVersion, before: Members, after: Members
+) -> AuditEntry:
+    """A new state of an item for the audit."""
+    old, new = differing(before, after)
+    return AuditEntry(action, f"own-{version.item_id}", version.name, old if before else None, new)

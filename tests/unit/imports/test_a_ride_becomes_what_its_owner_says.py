@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from backend.errors import Conflict, InvalidRequest, NotAllowed
+from backend.errors import Conflict, InvalidRequest
 from backend.imports.mapping import TableMapping
 from backend.imports.service import Uploads
 from backend.rebuild import rebuild_store
@@ -230,24 +230,6 @@ def test_a_unit_counts_as_far_as_it_is_of_what_a_column_is(
     reader = store.rides.reader(became.ride_ids[0])
     last = {name: values[-1] for name, values in reader.values(list(meanings.values())).items()}
     assert last == {"motor_power_w": 720, "heart_rate_bpm": 195, "speed_kmh": pytest.approx(36)}
-
-
-def test_who_may_only_upload_changes_no_ride(
-    store: Store, uploads: Uploads, mapping: TableMapping
-) -> None:
-    read, asking = uploads.receive_file("1.csv", table()), table(2, zone="")
-    before = store.rides.get(read.ride_ids[0])
-    waits = uploads.receive_file("2.csv", asking)
-
-    for again in (False, True):
-        with pytest.raises(NotAllowed):
-            mapping.say(read.id, PULSE, read_again=again, may_change_rides=False)
-    with pytest.raises(NotAllowed):
-        mapping.say(waits.id, BERLIN, read_again=True, may_change_rides=False)
-    became = mapping.say(waits.id, BERLIN, may_change_rides=False)
-
-    assert became.state == "complete"
-    assert store.rides.get(before.id) == before
 
 
 def test_of_a_file_without_columns_nothing_can_be_said(

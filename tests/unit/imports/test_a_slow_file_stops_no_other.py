@@ -250,7 +250,7 @@ def test_a_file_that_waits_for_its_turn_can_be_removed(store: Store) -> None:
 def test_a_file_that_could_not_be_removed_keeps_its_turn(
     store: Store, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def refuse(token: str, now_us: int) -> None:
+    def refuse(token: str, now_us: int, audited: bool) -> None:
         raise Conflict("A ride came from it.", code="has_rides")
 
     held = HeldReader()

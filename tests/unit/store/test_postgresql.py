@@ -9,6 +9,7 @@ from __future__ import annotations
 import logging
 import subprocess
 import sys
+import threading
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -22,12 +23,16 @@ from alembic.migration import MigrationContext
 from sqlalchemy import create_engine
 
 import backend.store
+from backend.core.actor import Actor, acting
+from backend.core.audit import Action, AuditEntry
 from backend.errors import StoreError
 from backend.rebuild import rebuild_store
 from backend.store import open_store
+from backend.store.audit import AuditLog, append
 from backend.store.sql import advisory
 from backend.store.sql.advisory import AdvisoryLock, lock_engine
 from backend.store.sql.tables import metadata
+from backend.store.upkeep.audit import verify_audit
 from backend.store.upkeep.check import check_store
 from tests.fakes.postgres import Postgres
 from tests.unit.store.ride_data import honest_ride, recording
@@ -204,3 +209,49 @@ def test_a_server_whose_lock_another_took_writes_nothing_any_more(
         with pytest.raises(StoreError, match="Another Spindle has taken the database"):
             first.rides.finish(ride_id)
         assert first.rides.get(ride_id).row_count == ROWS
+
+
+def test_many_append_to_one_chain_that_nobody_changes(url: str, folder: str) -> None:
+    each, names = 20, ("Anna", "Ben", "Rita")
+    with open_store(url, folder) as store:
+
+        def work(name: str) -> None:
+            with acting(Actor("person", name)):
+                for number in range(each):
+                    entry = AuditEntry(Action.BIKE_ADDED, number, after={"name": "Blü"})
+                    store.database.write(lambda c, entry=entry: append(c, entry))
+
+        threads = [threading.Thread(target=work, args=(name,)) for name in names]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for statement in (
+            "UPDATE audit_event SET actor_name = 'nobody' WHERE id = 3",
+            "DELETE FROM audit_event WHERE id = 3",
+            "TRUNCATE audit_event",
+            "DELETE FROM audit_head",
+        ):
+            with pytest.raises(StoreError, match="appended to and never changed"):
+                store.database.write(lambda c, one=statement: c.exec_driver_sql(one))
+
+        check = verify_audit(url)
+
+    assert (check.events, check.misfit) == (len(names) * each, None)
+
+
+def test_a_tampered_event_is_found(url: str, folder: str) -> None:
+    with open_store(url, folder) as store:
+        log = AuditLog(store.database)
+        for number in range(5):
+            log.note(AuditEntry(Action.BIKE_ADDED, number))
+    engine = create_engine(url)
+    with engine.begin() as connection:
+        connection.exec_driver_sql("ALTER TABLE audit_event DISABLE TRIGGER ALL")
+        connection.exec_driver_sql("UPDATE audit_event SET object_id = '7' WHERE id = 3")
+    engine.dispose()
+
+    misfit = verify_audit(url).misfit
+
+    assert misfit is not None
+    assert misfit.event_id == 3

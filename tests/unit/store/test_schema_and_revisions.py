@@ -93,8 +93,9 @@ def test_every_table_can_be_made_on_postgresql() -> None:
 
     texts = [str(CreateTable(table).compile(dialect=dialect)) for table in metadata.sorted_tables]
 
-    keyed = [text for text in texts if "\tid " in text]
-    assert len(texts) == 26
+    # The audit's own head gives its events their numbers, without a gap.
+    keyed = [text for text in texts if "\tid " in text and "TABLE audit_event" not in text]
+    assert len(texts) == 28
     assert all("BIGSERIAL" in text for text in keyed)
 
 

@@ -1,0 +1,1 @@
+"""Who changed what: the chain of events as people look at it, and take it away."""
