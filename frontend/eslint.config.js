@@ -27,6 +27,7 @@ const SHARED = {
 // The same of the features, which have the names of the backend's; none imports a page above it.
 const FEATURES = {
   help: [],
+  audit: [],
   people: [],
   bikes: [],
   units: [],

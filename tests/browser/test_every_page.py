@@ -54,6 +54,7 @@ PAGES = {
     "service": ("/service", "[data-testid=fault-box], section"),
     "fleet": ("/fleet", "[data-testid=fleet] a"),
     "fleet-bike": ("/fleet/1", "[data-testid=rides-of-bike] a"),
+    "audit": ("/audit", "[data-testid=audit] details"),
     "settings": ("/settings", "fieldset"),
 }
 

@@ -67,6 +67,7 @@ ELSEWHERE = {"tune"}
 # What is asked of these is in their address, what is set is set at once, and a line that is being
 # typed goes with Enter.
 NOTHING_OPEN = {"bike", "compare", "connect", "live", "try", "why", "library", "rides", "ride"} | {
+    "audit",
     "fleet",
     "fleet_bike",
     "settings",

@@ -8,6 +8,7 @@ type Screen = { default: Component<Record<string, never>> | Component<{ id: stri
 const screen = (load: () => Promise<Screen>): Loader => load as Loader
 
 export const loaders: Record<PageName, Loader> = {
+  audit: screen(() => import('../features/audit/AuditPage.svelte')),
   bike: screen(() => import('../features/units/bike/BikePage.svelte')),
   compare: screen(() => import('../features/rides/comparison/ComparePage.svelte')),
   connect: screen(() => import('../features/units/connect/ConnectPage.svelte')),

@@ -9,6 +9,7 @@ export type TunePage = (typeof TUNE_PAGES)[number]
 
 export type PageName =
   | TunePage
+  | 'audit'
   | 'bike'
   | 'compare'
   | 'connect'
@@ -28,6 +29,7 @@ export interface Route {
 }
 
 const pages: Record<string, PageName> = {
+  audit: 'audit',
   connect: 'connect',
   fleet: 'fleet',
   live: 'live',
@@ -50,6 +52,7 @@ export function isOfUnit(page: PageName): boolean {
 
 /** What a page needs; null for one that everybody has. */
 export function neededFor(page: PageName): Permission | null {
+  if (page === 'audit') return 'see_audit'
   return isOfUnit(page) || page === 'connect' ? 'see_bikes' : null
 }
 

@@ -11,6 +11,8 @@ it.each([
   ['rides/compare', { page: 'compare', id: '' }],
   ['rides/12/more', { page: 'unknown', id: '' }],
   ['fleet', { page: 'fleet', id: '' }],
+  ['audit', { page: 'audit', id: '' }],
+  ['audit/1', { page: 'unknown', id: '' }],
   ['fleet/12', { page: 'fleet_bike', id: '12' }],
   ['tune', { page: 'tune', id: '' }],
   ['tune/modes', { page: 'modes', id: '' }],

@@ -283,6 +283,51 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/audit": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Audit
+         * @description Newest first; `next` is the cursor of the following page, or null.
+         *
+         *     What was done to accounts and keys is shown to who manages people alone.
+         */
+        get: operations["list_audit"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/audit/export": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Export Audit
+         * @description All of them as a file, oldest first.
+         *
+         *     In `jsonl` each line is an event as it was hashed: its `sha256` is that of the line's object
+         *     without `sha256`, names sorted, no blanks, ASCII.
+         */
+        get: operations["export_audit"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/bikes": {
         parameters: {
             query?: never;
@@ -2523,6 +2568,12 @@ export interface paths {
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        /**
+         * Action
+         * @description What was done. It begins with what it was done to.
+         * @enum {string}
+         */
+        Action: "account_added" | "account_first_added" | "account_changed" | "account_password_set" | "account_removed" | "account_signed_in" | "account_signed_out_everywhere" | "key_added" | "key_revoked" | "bike_added" | "bike_changed" | "bike_unit_changed" | "bike_removed" | "bike_offered" | "bike_taken" | "bike_left" | "bike_rides_given" | "unit_first_seen" | "unit_connected" | "unit_named" | "unit_removed" | "unit_faults_cleared" | "unit_log_erased" | "unit_values_tried" | "unit_values_ended" | "configuration_found" | "configuration_written" | "configuration_tried" | "configuration_confirmed" | "configuration_rolled_back" | "calibration_opened" | "calibration_written" | "calibration_restored" | "calibration_closed" | "ride_changed" | "ride_deleted" | "upload_deleted" | "table_answered" | "table_forgotten" | "library_item_added" | "library_item_changed" | "library_item_removed" | "store_backed_up" | "store_rebuilt";
         /** Address */
         Address: {
             /**
@@ -2746,6 +2797,90 @@ export interface components {
         Asymmetry: {
             left_right: components["schemas"]["LoadShare"];
             bending_across?: components["schemas"]["LoadShare"] | null;
+        };
+        /**
+         * AuditEvent
+         * @description One change: who made it, when, to what, and what was otherwise before.
+         */
+        AuditEvent: {
+            /**
+             * Id
+             * @description Counts from 1 without a gap.
+             */
+            id: number;
+            /**
+             * At
+             * Format: date-time
+             */
+            at: string;
+            /**
+             * Actor Kind
+             * @description A `person`, a program with a `key`, the `server` by itself, a `command` on its folder.
+             * @enum {string}
+             */
+            actor_kind: "person" | "key" | "server" | "command";
+            /**
+             * Actor Name
+             * @description Of the account then; where nobody signs in, as the request states it; empty for nobody.
+             */
+            actor_name: string;
+            /**
+             * Person Id
+             * @description Null where nobody signed in.
+             */
+            person_id: number | null;
+            /** Key Name */
+            key_name: string | null;
+            action: components["schemas"]["Action"];
+            /**
+             * Object Kind
+             * @enum {string}
+             */
+            object_kind: "account" | "key" | "bike" | "unit" | "configuration" | "calibration" | "ride" | "upload" | "table" | "library_item" | "store";
+            /** Object Id */
+            object_id: string | null;
+            /**
+             * Object Name
+             * @description As it was called then.
+             */
+            object_name: string | null;
+            /** Unit Key */
+            unit_key: string | null;
+            /** Bike Id */
+            bike_id: number | null;
+            /**
+             * Bike Name
+             * @description As it is called now; null once it is removed.
+             */
+            bike_name: string | null;
+            /**
+             * Before
+             * @description What differs, by name; physical names carry their units.
+             */
+            before: {
+                [key: string]: unknown;
+            } | null;
+            /** After */
+            after: {
+                [key: string]: unknown;
+            } | null;
+            /** Reason */
+            reason: string | null;
+            /**
+             * Sha256
+             * @description Of this event and of all before it; `spindle audit verify --expect` finds it again.
+             */
+            sha256: string;
+        };
+        /** AuditPage */
+        AuditPage: {
+            /** Items */
+            items: components["schemas"]["AuditEvent"][];
+            /**
+             * Next
+             * @description The cursor of the following page.
+             */
+            next: string | null;
         };
         /**
          * AxisGap
@@ -6412,7 +6547,7 @@ export interface components {
          * @description One thing that may be allowed.
          * @enum {string}
          */
-        Permission: "compute" | "see_bikes" | "change_bikes" | "calibrate" | "see_register" | "change_register" | "see_rides" | "change_rides" | "upload_files" | "see_library" | "change_library" | "simulate" | "see_server" | "back_up" | "manage_people";
+        Permission: "compute" | "see_bikes" | "change_bikes" | "calibrate" | "see_register" | "change_register" | "see_rides" | "change_rides" | "upload_files" | "see_library" | "change_library" | "simulate" | "see_server" | "back_up" | "see_audit" | "manage_people";
         /**
          * Person
          * @description An account.
@@ -11098,6 +11233,122 @@ export interface operations {
             };
             /** @description Conflict */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_audit: {
+        parameters: {
+            query?: {
+                limit?: number;
+                cursor?: string | null;
+                /** @description Part of a name, of a person or a key. */
+                who?: string | null;
+                action?: components["schemas"]["Action"] | null;
+                object_kind?: ("account" | "key" | "bike" | "unit" | "configuration" | "calibration" | "ride" | "upload" | "table" | "library_item" | "store") | null;
+                unit_key?: string | null;
+                bike_id?: number | null;
+                from?: string | null;
+                to?: string | null;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AuditPage"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    export_audit: {
+        parameters: {
+            query?: {
+                format?: "csv" | "jsonl";
+                /** @description Part of a name, of a person or a key. */
+                who?: string | null;
+                action?: components["schemas"]["Action"] | null;
+                object_kind?: ("account" | "key" | "bike" | "unit" | "configuration" | "calibration" | "ride" | "upload" | "table" | "library_item" | "store") | null;
+                unit_key?: string | null;
+                bike_id?: number | null;
+                from?: string | null;
+                to?: string | null;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/csv": unknown;
+                    "application/jsonl": unknown;
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
                 headers: {
                     [name: string]: unknown;
                 };

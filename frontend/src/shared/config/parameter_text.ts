@@ -75,11 +75,13 @@ export function singleText(
     : '—'
 }
 
+type Named = Pick<Parameter, 'name' | 'unit'>
+
 /** A complete value in one line, for lists of what changed. */
 export function valueText(
   locale: Locale,
   units: Units,
-  parameter: Parameter | undefined,
+  parameter: Named | undefined,
   value: ParameterValue | null,
 ): string {
   if (value === null) return '—'
@@ -94,7 +96,7 @@ export function valueText(
 export function elementText(
   locale: Locale,
   units: Units,
-  parameter: Parameter | undefined,
+  parameter: Named | undefined,
   element: Element | undefined,
 ): string {
   if (element === undefined || element === null) return '—'
