@@ -10,11 +10,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import expect
 
 from tests.browser.conftest import OpenDesk
-from tests.browser.desk import Desk, sideways
-from tests.browser.judged import JUDGE, SMALL_TARGETS
+from tests.browser.workshop_desk import check, sign_in
 from tests.fakes.server import eventually
 from tests.fakes.workshop import Workshop, open_workshop
 
@@ -43,26 +42,6 @@ def workshop(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Workshop]:
         server.until_writable(device)
         opened.ask("Ben", "PUT", f"/devices/{device}/parts/fuzzy_table", json=table)
         yield opened
-
-
-def sign_in(desk: Desk, workshop: Workshop, who: str) -> Page:
-    token = workshop.clients[who].cookies["spindle_session"]
-    url = workshop.server.url
-    desk.page.context.add_cookies(
-        [
-            {"name": "spindle_session", "value": token, "url": url},
-            {"name": "spindle_signed_in", "value": "1", "url": url},
-        ]
-    )
-    return desk.page
-
-
-def check(page: Page, axe: str) -> None:
-    page.evaluate(axe)
-    assert page.evaluate(JUDGE) == []
-    assert sideways(page) == 0
-    if page.evaluate("matchMedia('(pointer: coarse)').matches"):
-        assert page.evaluate(SMALL_TARGETS) == []
 
 
 def test_a_dealer_finds_a_change_and_what_it_changed(

@@ -12,11 +12,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import expect
 
 from tests.browser.conftest import OpenDesk
-from tests.browser.desk import REFUSED, Desk, sideways
-from tests.browser.judged import JUDGE, SMALL_TARGETS
+from tests.browser.desk import REFUSED
+from tests.browser.workshop_desk import check, sign_in
 from tests.fakes.house import PASSWORD
 from tests.fakes.track_files import gpx_file, gpx_track
 from tests.fakes.workshop import Workshop, open_workshop
@@ -28,29 +28,6 @@ OWN_BIKE = re.compile(r"/fleet/\d+$")
 def workshop(tmp_path: Path) -> Iterator[Workshop]:
     with open_workshop(tmp_path) as opened:
         yield opened
-
-
-def sign_in(desk: Desk, workshop: Workshop, who: str) -> Page:
-    """A page that somebody is signed in on."""
-    token = workshop.clients[who].cookies["spindle_session"]
-    address = workshop.server.url
-    here = {"value": "1", "url": address}
-    desk.page.context.add_cookies(
-        [
-            {"name": "spindle_session", "value": token, "url": address},
-            {"name": "spindle_signed_in", **here},
-        ]
-    )
-    return desk.page
-
-
-def check(page: Page, axe: str) -> None:
-    """What every page must keep: roles and names, the window's width, room for fingers."""
-    page.evaluate(axe)
-    assert page.evaluate(JUDGE) == []
-    assert sideways(page) == 0
-    if page.evaluate("matchMedia('(pointer: coarse)').matches"):
-        assert page.evaluate(SMALL_TARGETS) == []
 
 
 def test_a_bike_is_taken_in_and_handed_over_by_a_code(
