@@ -22,6 +22,7 @@ from socket import socket
 import uvicorn
 from uvicorn.supervisors.statreload import StatReload
 
+from backend.core.hosts import bracketed
 from backend.errors import LinkError, SpindleError
 from backend.listening import listening_socket
 from backend.main import serve_on
@@ -53,7 +54,7 @@ def main() -> int:
     settings = replace(load({}), tls="off")
     listening = a_socket(settings)
     host, port = listening.getsockname()[:2]
-    origin = f"http://[{host}]:{port}" if ":" in host else f"http://{host}:{port}"
+    origin = f"http://{bracketed(host)}:{port}"
     folders = [str(CHECKOUT / name) for name in WATCHED]
     config = uvicorn.Config(
         "backend.dev:main", reload=True, reload_dirs=folders, log_level="warning"

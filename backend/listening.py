@@ -12,6 +12,7 @@ from typing import Any
 
 import uvicorn
 
+from backend.core.hosts import bracketed
 from backend.errors import LinkError
 from backend.server.certificate import ServerCertificate
 from backend.web.connections import PatientProtocol
@@ -87,8 +88,8 @@ class AnnouncingServer(uvicorn.Server):
         if self.started and sockets:
             host, port = sockets[0].getsockname()[:2]
             scheme = "http" if self._certificate is None else "https"
-            shown = f"[{host}]" if ":" in host else host
-            sys.stdout.write(f"Spindle is ready at {scheme}://{shown}:{port} (Ctrl-C stops it)\n")
+            url = f"{scheme}://{bracketed(host)}:{port}"
+            sys.stdout.write(f"Spindle is ready at {url} (Ctrl-C stops it)\n")
             if self._certificate is not None:
                 sys.stdout.write(words_of(self._certificate))
             if self._first_token is not None:
@@ -117,7 +118,7 @@ def first_link(host: str, port: int, token: str, scheme: str = "http") -> str:
     The token stands behind the `#`: a browser sends it to nobody, and no log of requests has it.
     """
     anywhere = host in ("0.0.0.0", "::")
-    shown = "localhost" if anywhere else f"[{host}]" if ":" in host else host
+    shown = "localhost" if anywhere else bracketed(host)
     return (
         "There is no administrator yet. Whoever opens this link first becomes one (it works once, "
         f"until the next start):\n  {scheme}://{shown}:{port}/sign-in#first={token}\n"

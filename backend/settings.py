@@ -13,11 +13,12 @@ import sys
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from ipaddress import ip_address, ip_network
+from ipaddress import ip_network
 from pathlib import Path
 from typing import Any
 
 from backend.core.author import tidy_author
+from backend.core.hosts import is_of_this_machine
 from backend.errors import FieldError, InvalidRequest
 
 PREFIX = "SPINDLE_"
@@ -89,12 +90,7 @@ class Settings:
     @property
     def is_loopback(self) -> bool:
         """Whether only this machine can reach the server."""
-        if self.host == "localhost":
-            return True
-        try:
-            return ip_address(self.host).is_loopback
-        except ValueError:
-            return False
+        return is_of_this_machine(self.host)
 
     @property
     def needs_sign_in(self) -> bool:

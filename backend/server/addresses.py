@@ -13,6 +13,7 @@ from pathlib import Path
 from urllib.parse import urlsplit
 
 from backend.core.described import described
+from backend.core.hosts import bracketed, is_of_this_machine
 from backend.core.qr import qr_of
 from backend.server.certificate import ServerCertificate
 
@@ -105,21 +106,10 @@ class ServerAddresses:
         return [str(one) for one in machine_addresses() if one.version == version]
 
 
-def is_of_this_machine(host: str) -> bool:
-    """Whether a name or an address means the machine that it is used on."""
-    if host.rstrip(".").lower() == "localhost":
-        return True
-    try:
-        return ip_address(host).is_loopback
-    except ValueError:
-        return False
-
-
 def url_of(scheme: str, host: str, port: int, root_path: str = "") -> str:
     """The address of a page, its host a name or an address."""
-    shown = f"[{host}]" if ":" in host else host
     at = "" if port == DEFAULT_PORTS[scheme] else f":{port}"
-    return f"{scheme}://{shown}{at}{root_path}/"
+    return f"{scheme}://{bracketed(host)}{at}{root_path}/"
 
 
 def certificate_names(allowed_hosts: Iterable[str]) -> list[str]:
