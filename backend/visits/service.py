@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from typing import Any, TypeVar
 
@@ -49,19 +49,23 @@ class Workbench:
 
     def check(self, device_id: str) -> UnitChecks:
         """Every check, now. Raises NotFound, NoAnswer, StoreError."""
+        return self._checked(device_id, self._parameters(device_id) or {})
+
+    def _checked(self, device_id: str, parameters: Mapping[str, Any]) -> UnitChecks:
         channels = self._inspection.snapshot(device_id).channels
         wear = None
         with suppress(CapabilityMissing):
             wear = self._inspection.wear_counters(device_id)
         drift = self._drift(device_id)
         device = self._devices.get(device_id)
-        least_v = (self._parameters(device_id) or {}).get("battery_voltage_v_min")
+        least_v = parameters.get("battery_voltage_v_min")
         readings = Readings(channels, device.faults_active, wear, device.link, drift, least_v)
         return UnitChecks(utc(now_us()), checks_of(readings), channels, device.faults_active, wear)
 
     def support_file(self, device_id: str) -> SupportFile:
         """What a unit says of itself, also one that is away. Raises NotFound, StoreError."""
         device = self._devices.get(device_id)
+        parameters = self._parameters(device_id)
         revisions = unless_away(lambda: self._tuning.revisions(device_id)) or ()
         return SupportFile(
             format="spindle-support",
@@ -77,8 +81,8 @@ class Workbench:
             config=device.config,
             link=device.link,
             faults=tuple(self._inspection.faults(device_id)),
-            checks=unless_away(lambda: self.check(device_id)),
-            parameters=self._parameters(device_id),
+            checks=unless_away(lambda: self._checked(device_id, parameters or {})),
+            parameters=parameters,
             revisions=tuple(map(without_words, revisions[:REVISIONS_MAX])),
         )
 
@@ -102,7 +106,6 @@ def without_words(revision: Revision) -> SupportRevision:
 
 def unless_away(look: Callable[[], Found]) -> Found | None:
     """What a unit says; None where it does not answer, or never said it."""
-    try:
+    with suppress(LinkError, NotFound):
         return look()
-    except (LinkError, NotFound):
-        return None
+    return None

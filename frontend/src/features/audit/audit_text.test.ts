@@ -60,7 +60,7 @@ it('tells what is no number in words, and what is not there by a dash', () => {
   const after = {
     role: 'dealer',
     enabled: false,
-    scopes: ['see_bikes', 'upload'],
+    scopes: ['see_bikes', 'upload_files'],
     changed: ['name', 'notes'],
     owner: null,
     ride_ids: [4, 5],
@@ -76,7 +76,7 @@ it('tells what is no number in words, and what is not there by a dash', () => {
   ).toEqual([
     ['Role', '—', 'dealer'],
     ['May sign in', '—', 'no'],
-    ['What for', '—', 'see_bikes, upload'],
+    ['What for', '—', 'see_bikes, upload_files'],
     ['Changed', '—', 'name, notes'],
     ['Owner', '—', '—'],
     ['Rides', '—', '4 5'],
