@@ -44,7 +44,8 @@ def listed(desk: Desk, server: SpindleServer, device: str, **change: Any) -> Non
 
 
 def clear(page: Page) -> None:
-    page.get_by_role("button", name="Clear the fault").click()
+    with page.expect_response("**/faults/clear*"):
+        page.get_by_role("button", name="Clear the fault").click()
 
 
 def test_a_latched_fault_whose_cause_is_gone_is_cleared_by_a_click(
