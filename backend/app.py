@@ -35,7 +35,8 @@ from backend.tuning import law_api as law
 from backend.tuning.library import api as library
 from backend.units import api as devices
 from backend.units import live
-from backend.visits import api as visits
+from backend.visits import api as workbench
+from backend.visits import visits_api as visits
 from backend.web.app import Operations, WebSettings, create_app
 from backend.web.permissions import Anyone, Own
 
@@ -47,8 +48,10 @@ OPERATIONS: dict[Permission | Anyone, str] = {
     "take_pairing get_addresses get_description get_docs",
     P.COMPUTE: "compute_surface compute_points compute_torque_surface compute_mode_curves "
     "lint_table why_steady evaluate_calibration read_fis list_scenarios",
-    P.SEE_REGISTER: "list_bikes get_bike",
-    P.CHANGE_REGISTER: "add_bike change_bike remove_bike give_rides pair_bike leave_bike",
+    P.SEE_REGISTER: "list_bikes get_bike list_visits get_visit get_visit_photo get_bike_history",
+    P.CHANGE_REGISTER: "add_bike change_bike remove_bike give_rides pair_bike leave_bike "
+    "open_visit change_visit look_at_unit close_visit remove_visit consent_to_visit "
+    "add_visit_photo remove_visit_photo add_bike_history",
     P.SEE_SERVER: "get_health get_store list_ports",
     P.SEE_AUDIT: "list_audit export_audit",
     P.BACK_UP: "get_backup",
@@ -83,7 +86,8 @@ NEEDED = {one: needed for needed, operations in OPERATIONS.items() for one in op
 
 # What those may who have only their own; everything else that is not for anybody is the workshop's.
 OWN_OPERATIONS = {
-    Own.ADDRESSED: "get_bike change_bike pair_bike leave_bike energy_of_ride effort_of_ride "
+    Own.ADDRESSED: "get_bike change_bike pair_bike leave_bike list_visits get_visit "
+    "get_visit_photo get_bike_history consent_to_visit energy_of_ride effort_of_ride "
     "pedalling_of_ride diagnosis_of_ride report_of_ride get_ride get_ride_series get_ride_track "
     "get_ride_figure export_ride replay_ride ride_again why_of_ride cuts_of_ride ledger_of_ride "
     "patch_ride delete_ride get_upload_offset append_upload get_upload delete_upload get_mapping "
@@ -116,6 +120,7 @@ ROUTERS = [
     people_router,
     audit.router,
     bikes.router,
+    workbench.router,
     visits.router,
     calibrations.figures,
     comparison.of_units,

@@ -86,7 +86,9 @@ from backend.units.memory import UnitMemory
 from backend.units.records import UnitStore
 from backend.units.service import Devices, Watcher
 from backend.units.watch import Watch
-from backend.visits.service import Workbench
+from backend.visits.records import VisitStore
+from backend.visits.service import Visits
+from backend.visits.workbench import Workbench
 from backend.web.app import WebSettings
 from backend.web.safety import AllowedHosts
 
@@ -166,6 +168,7 @@ def open_services(
             sample_ride=partial(sample_ride, store, uploads),
             collect=collect,
             bikes=make_bikes(store, people, units),
+            visits=make_visits(store, devices, inspection, tuning),
             audit=Audit(AuditReader(store.database)),
             people=people,
         )
@@ -274,6 +277,13 @@ def make_workbench(
     """What a workshop looks at of a unit."""
     drift = make_drift(store, devices, tuning)
     return Workbench(devices, inspection, tuning, drift, __version__)
+
+
+def make_visits(store: Store, devices: Devices, inspection: Inspection, tuning: Tuning) -> Visits:
+    """Service visits, with what became of the unit meanwhile."""
+    workbench = make_workbench(store, devices, inspection, tuning)
+    revisions, calibrations = RevisionStore(store.database), CalibrationStore(store)
+    return Visits(VisitStore(store), workbench, revisions, calibrations.list)
 
 
 def make_calibrations(

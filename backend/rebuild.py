@@ -35,6 +35,7 @@ from backend.store.sql.database import Database, shown, sqlite_path
 from backend.store.sql.database_url import check_url
 from backend.store.sql.sound_rows import NOT_AS_WRITTEN
 from backend.store.store import saying_where
+from backend.visits.records import bring_back_visit
 
 # Where a destroyed SQLite file may have left something.
 JOURNALS = ("-wal", "-shm", "-journal")
@@ -44,11 +45,11 @@ JOURNALS = ("-wal", "-shm", "-journal")
 class Rebuilt:
     """What a rebuild did.
 
-    rides, calibrations, calibrations_open: added now. rides_before: there already. rides_mended:
-    those of them whose rows were damaged; rides_damaged: whose rows still are. lost_words: rides
-    whose name, notes and tags are not known, by key. not_taken: files that are not whole, with the
-    reason; stay: those of them that no start moves away. superseded: rides of which there is a
-    fuller version. set_aside: files of the destroyed database, under their new
+    rides, calibrations, calibrations_open, visits: added now. rides_before: there already.
+    rides_mended: those of them whose rows were damaged; rides_damaged: whose rows still are.
+    lost_words: rides whose name, notes and tags are not known, by key. not_taken: files that are
+    not whole, with the reason; stay: those of them that no start moves away. superseded: rides of
+    which there is a fuller version. set_aside: files of the destroyed database, under their new
     names.
     """
 
@@ -59,6 +60,7 @@ class Rebuilt:
     rides_damaged: tuple[int, ...] = ()
     calibrations: int = 0
     calibrations_open: int = 0
+    visits: int = 0
     lost_words: dict[str, str] = field(default_factory=dict)
     not_taken: dict[str, str] = field(default_factory=dict)
     stay: dict[str, str] = field(default_factory=dict)
@@ -206,6 +208,13 @@ def bring_back_calibrations(
             report.calibrations += bring_back_calibration(database, objects, key)
         except StoreError as error:
             report.not_taken[key] = error.message
+    for key in objects.visit_keys():
+        if not key.endswith(SIDECAR_SUFFIX):
+            continue
+        try:
+            report.visits += bring_back_visit(database, objects.read_json(key) or {})
+        except StoreError as error:
+            report.stay[key] = error.message
     for key in objects.calibrating_keys():
         try:
             report.calibrations_open += bring_back_calibration(database, objects, key)
@@ -224,6 +233,8 @@ def report_lines(report: Rebuilt) -> Iterable[str]:
         yield f"{report.calibrations} calibrations brought back."
     if report.calibrations_open:
         yield f"{report.calibrations_open} open calibrations brought back: go on with them."
+    if report.visits:
+        yield f"{report.visits} service visits brought back."
     for name in report.set_aside:
         yield f"The destroyed database is kept as {name}."
     for key, reason in report.lost_words.items():

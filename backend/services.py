@@ -41,7 +41,8 @@ if TYPE_CHECKING:
     from backend.units.inspection import Inspection
     from backend.units.service import Devices
     from backend.units.watch import Watch
-    from backend.visits.service import Workbench
+    from backend.visits.service import Visits
+    from backend.visits.workbench import Workbench
 
 
 @dataclass(frozen=True)
@@ -82,6 +83,7 @@ class Services:
     sample_ride: Callable[[int | None], int]
     collect: Collect
     bikes: Bikes
+    visits: Visits
     audit: Audit
     # None where nobody is asked to sign in.
     people: PeopleService | None

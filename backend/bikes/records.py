@@ -103,10 +103,10 @@ class BikeStore:
             used = [select(t.bike_unit.c.id).where(on_now)]
             used += [
                 select(table.c.id).where(table.c.bike_id == bike_id)
-                for table in (t.ride, t.calibration, t.bike_owner, t.api_key, t.upload)
+                for table in (t.ride, t.calibration, t.visit, t.bike_owner, t.api_key, t.upload)
             ]
             if any(connection.execute(one.limit(1)).first() is not None for one in used):
-                message = "It has a unit, rides, files, calibrations, owners or keys: its history."
+                message = "It has a unit, rides, files, calibrations, visits, owners or keys."
                 raise Conflict(message, "bike_in_use")
             for table in (t.pairing, t.bike_unit):
                 connection.execute(delete(table).where(table.c.bike_id == bike_id))
@@ -156,6 +156,12 @@ class BikeStore:
             query = query.where(
                 t.bike_owner.c.account_id == owner_id, t.bike_owner.c.to_us.is_(None)
             )
+        elif kind == "visit_id":
+            query = select(t.visit.c.id).join(
+                t.bike_owner, t.bike_owner.c.bike_id == t.visit.c.bike_id
+            )
+            query = query.where(t.visit.c.id == int(name), t.bike_owner.c.to_us.is_(None))
+            query = query.where(t.bike_owner.c.account_id == owner_id)
         else:
             return False
         return self._database.read(lambda c: c.execute(query).first()) is not None

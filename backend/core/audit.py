@@ -18,6 +18,7 @@ ObjectKind: TypeAlias = Literal[
     "unit",
     "configuration",
     "calibration",
+    "visit",
     "ride",
     "upload",
     "table",
@@ -63,6 +64,11 @@ class Action(StrEnum):
     CALIBRATION_WRITTEN = "calibration_written"
     CALIBRATION_RESTORED = "calibration_restored"
     CALIBRATION_CLOSED = "calibration_closed"
+    VISIT_OPENED = "visit_opened"
+    VISIT_CLOSED = "visit_closed"
+    VISIT_CONSENTED = "visit_consented"
+    VISIT_REMOVED = "visit_removed"
+    VISIT_BROUGHT = "visit_brought"
     RIDE_CHANGED = "ride_changed"
     RIDE_DELETED = "ride_deleted"
     UPLOAD_DELETED = "upload_deleted"

@@ -38,6 +38,8 @@ LOST_FOUND = "lost+found"
 TABLES = "tables"
 # A calibration that is open, a file each: what was captured outlives the database.
 CALIBRATING = "calibrating"
+# Service visits, a file each, and one for each of their photographs.
+VISITS = "visits"
 IDENTITY = "spindle-store.json"
 IDENTITY_ID = re.compile(r"[0-9a-f]{32}")
 RIDE_SUFFIX, SIDECAR_SUFFIX = ".parquet", ".json"
@@ -90,6 +92,7 @@ class Objects(Protocol):
     def keys(self) -> Iterator[str]: ...
     def table_keys(self) -> Iterator[str]: ...
     def calibrating_keys(self) -> Iterator[str]: ...
+    def visit_keys(self) -> Iterator[str]: ...
     def clear_staging(self) -> int: ...
 
 
@@ -194,6 +197,10 @@ class FileObjects:
     def calibrating_keys(self) -> Iterator[str]:
         """Keys of the files of open calibrations."""
         yield from self._files((CALIBRATING,))
+
+    def visit_keys(self) -> Iterator[str]:
+        """Keys of the files of service visits, and of their photographs."""
+        yield from self._files((VISITS,))
 
     def lost_keys(self) -> Iterator[str]:
         """What lies in `lost+found/`."""

@@ -6,8 +6,8 @@ from typing import Annotated
 
 from fastapi import APIRouter
 
-from backend.visits.service import Workbench
 from backend.visits.types import SupportFile, UnitChecks
+from backend.visits.workbench import Workbench
 from backend.web.problem import refusals
 from backend.web.services import provided
 

@@ -1,111 +1,303 @@
-"""A unit on the workbench: its checks, done now, and the file for who helps from afar."""
+"""The use cases of service visits; safe to call from any thread."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from contextlib import suppress
-from typing import Any, TypeVar
+import hashlib
+import secrets
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import IO, Any, Protocol
 
-from backend.core.moments import utc
-from backend.core.revision import Revision
-from backend.errors import CapabilityMissing, LinkError, NotFound
+from backend.core.canonical_json import sha256_of
+from backend.core.moments import utc, utc_or_none
+from backend.core.person import Person
+from backend.core.revision import RevisionLog
+from backend.errors import Conflict, FieldError, InvalidRequest, NotFound
 from backend.store.wall_clock import now_us
-from backend.tuning.service import Tuning
-from backend.units.inspection import Inspection
-from backend.units.service import Devices
-from backend.visits.checks import Readings, checks_of
-from backend.visits.types import SupportFile, SupportRevision, UnitChecks
-
-Found = TypeVar("Found")
-LEFT_OUT = (
-    "names of people, bikes and units",
-    "addresses of the server and of the connection",
-    "rides and where they went",
-    "reasons and notes that somebody wrote",
+from backend.visits.changes import changes_since, seen_faults
+from backend.visits.history import HistoryFile, incoming, write_history
+from backend.visits.photos import drawn_anew
+from backend.visits.records import StoredVisit, VisitStore, plain
+from backend.visits.types import (
+    PHOTOS_MAX,
+    POINTS_MAX,
+    TEXT_MAX,
+    HistoryAdded,
+    Visit,
+    VisitCalibration,
+    VisitChangeIn,
+    VisitConsent,
+    VisitConsentIn,
+    VisitContent,
+    VisitIn,
+    VisitPart,
+    VisitPhoto,
+    VisitWords,
 )
-# More than a year of tuning; the newest say what was changed before it failed.
-REVISIONS_MAX = 100
+from backend.visits.workbench import Workbench
 
 
-class Workbench:
-    """Looks at units, and changes nothing. For any thread.
+class ClosedCalibration(Protocol):
+    """What a visit has of a calibration job."""
 
-    drift: what a unit's rides show of its zero, as `SensorDriftService`. version: of this Spindle.
+    @property
+    def id(self) -> int: ...
+    @property
+    def closed_us(self) -> int | None: ...
+    @property
+    def author(self) -> str: ...
+    @property
+    def sha256(self) -> str | None: ...
+
+
+class Visits:
+    """Visits from the first word to the owner's consent.
+
+    calibrations: jobs of a unit by its key.
     """
 
     def __init__(
         self,
-        devices: Devices,
-        inspection: Inspection,
-        tuning: Tuning,
-        drift: Callable[[str], dict[str, Any]],
-        version: str,
+        visits: VisitStore,
+        workbench: Workbench,
+        revisions: RevisionLog,
+        calibrations: Callable[[str], Sequence[ClosedCalibration]],
     ) -> None:
-        self._devices = devices
-        self._inspection = inspection
-        self._tuning = tuning
-        self._drift = drift
-        self._version = version
+        self._visits = visits
+        self._workbench = workbench
+        self._revisions = revisions
+        self._calibrations = calibrations
+        # A photograph takes some hundred megabytes while it is drawn.
+        self._drawing = threading.Lock()
 
-    def check(self, device_id: str) -> UnitChecks:
-        """Every check, now. Raises NotFound, NoAnswer, StoreError."""
-        return self._checked(device_id, self._parameters(device_id) or {})
+    def list(self, bike_id: int, owner_id: int | None = None) -> tuple[Visit, ...]:
+        """The visits of a bike, the newest first. owner_id: the owner who looks, None for the
+        workshop. Raises NotFound, StoreError."""
+        return tuple(self._seen(visit, owner_id) for visit in self._visits.list(bike_id))
 
-    def _checked(self, device_id: str, parameters: Mapping[str, Any]) -> UnitChecks:
-        channels = self._inspection.snapshot(device_id).channels
-        wear = None
-        with suppress(CapabilityMissing):
-            wear = self._inspection.wear_counters(device_id)
-        drift = self._drift(device_id)
-        device = self._devices.get(device_id)
-        least_v = parameters.get("battery_voltage_v_min")
-        readings = Readings(channels, device.faults_active, wear, device.link, drift, least_v)
-        return UnitChecks(utc(now_us()), checks_of(readings), channels, device.faults_active, wear)
+    def get(self, visit_id: int, owner_id: int | None = None) -> Visit:
+        """One visit, as `list` has it. Raises NotFound, StoreError."""
+        return self._seen(self._visits.get(visit_id), owner_id)
 
-    def support_file(self, device_id: str) -> SupportFile:
-        """What a unit says of itself, also one that is away. Raises NotFound, StoreError."""
-        device = self._devices.get(device_id)
-        parameters = self._parameters(device_id)
-        revisions = unless_away(lambda: self._tuning.revisions(device_id)) or ()
-        return SupportFile(
-            format="spindle-support",
-            version=1,
-            spindle_version=self._version,
-            made_at=utc(now_us()),
-            left_out=LEFT_OUT,
-            family=device.family,
-            state=device.state,
-            reason_code=device.reason_code,
-            capabilities=device.capabilities,
-            identity=device.identity,
-            config=device.config,
-            link=device.link,
-            faults=tuple(self._inspection.faults(device_id)),
-            checks=unless_away(lambda: self._checked(device_id, parameters or {})),
-            parameters=parameters,
-            revisions=tuple(map(without_words, revisions[:REVISIONS_MAX])),
+    def open(self, bike_id: int, words: VisitIn, author: str) -> Visit:
+        """Begin a visit; a unit that is named is looked at.
+
+        Raises NotFound; Conflict `visit_open`, `other_bike` for a unit that is not on this bike;
+        LinkError, StoreError.
+        """
+        key, seq = self._visits.newest_revision(bike_id)
+        content = written(VisitContent(unit_key=key, revision_seq=seq), words)
+        if words.device_id is not None:
+            content = self._looked_at(content, words.device_id, key)
+        return self._seen(self._visits.open(bike_id, secrets.token_hex(16), content, author))
+
+    def change(self, visit_id: int, words: VisitChangeIn) -> Visit:
+        """Write in an open visit. Raises NotFound; Conflict `visit_closed`, `visit_changed`;
+        StoreError."""
+        changed = self._visits.change(visit_id, lambda now: written(now, words), words.version)
+        return self._seen(changed)
+
+    def look(self, visit_id: int, device_id: str) -> Visit:
+        """Look at the unit: its checks and faults, for after the work. Raises NotFound; Conflict
+        `visit_closed`, `other_bike`; LinkError, StoreError."""
+        key, _ = self._visits.newest_revision(self._visits.get(visit_id).bike_id)
+        # The unit answers before the database is written.
+        look = self._workbench.look(device_id)
+        require_on_bike(look[0].unit_key, key)
+        return self._seen(self._visits.change(visit_id, lambda now: with_look(now, *look)))
+
+    def add_photo(self, visit_id: int, name: str, data: bytes) -> Visit:
+        """Keep a photograph, drawn anew. Raises NotFound; InvalidRequest; Conflict `visit_closed`,
+        `photos_full`; StoreError."""
+        visit = self._visits.get(visit_id)
+        with self._drawing:
+            jpeg, width_px, height_px = drawn_anew(data)
+        sha256 = hashlib.sha256(jpeg).hexdigest()
+        added_at = utc(now_us())
+        photo = VisitPhoto(sha256, name, width_px, height_px, len(jpeg), added_at)
+        self._visits.keep_photo(visit.token, photo, jpeg)
+
+        def added(now: VisitContent) -> VisitContent:
+            if any(one.sha256 == sha256 for one in now.photos):
+                return now
+            if len(now.photos) >= PHOTOS_MAX:
+                raise Conflict(f"A visit has {PHOTOS_MAX} photographs at most.", "photos_full")
+            return replace(now, photos=(*now.photos, photo))
+
+        try:
+            return self._seen(self._visits.change(visit_id, added))
+        except Exception:
+            self._forget_unless_named(visit_id, sha256)
+            raise
+
+    def photo(self, visit_id: int, sha256: str) -> bytes:
+        """A photograph as JPEG. Raises NotFound, StoreError."""
+        visit = self._visits.get(visit_id)
+        if all(one.sha256 != sha256 for one in visit.content.photos):
+            raise NotFound(f"Visit {visit_id} has no photograph {sha256}.")
+        return self._visits.photo(visit.token, sha256)
+
+    def remove_photo(self, visit_id: int, sha256: str) -> Visit:
+        """Remove a photograph for good. Raises NotFound; Conflict `visit_closed`; StoreError."""
+
+        def without(now: VisitContent) -> VisitContent:
+            left = tuple(one for one in now.photos if one.sha256 != sha256)
+            if len(left) == len(now.photos):
+                raise NotFound(f"Visit {visit_id} has no photograph {sha256}.")
+            return replace(now, photos=left)
+
+        visit = self._visits.change(visit_id, without)
+        self._visits.forget_photo(visit.token, sha256)
+        return self._seen(visit)
+
+    def close(self, visit_id: int) -> Visit:
+        """End a visit with what is otherwise now. Raises NotFound, Conflict `visit_closed`,
+        StoreError."""
+        # Read before the transaction, which must not wait for another connection.
+        visit = self._visits.get(visit_id)
+        found = self._worked_out(visit).content
+
+        def final(now: VisitContent) -> VisitContent:
+            return replace(now, changes=found.changes, calibrations=found.calibrations)
+
+        return self._seen(self._visits.change(visit_id, final, closes=True))
+
+    def remove(self, visit_id: int) -> None:
+        """Remove an open visit that was begun by mistake. Raises NotFound, Conflict `visit_closed`,
+        StoreError."""
+        self._visits.remove(visit_id)
+
+    def consent(self, visit_id: int, request: VisitConsentIn, person: Person | None) -> Visit:
+        """Note that the owner agrees with what was done: by their own account, or by a signature
+        that the workshop hands over. person: who requests it, None where nobody signs in.
+
+        Raises NotFound; InvalidRequest; Conflict `visit_changed` where it is otherwise by now;
+        StoreError.
+        """
+        content_sha256 = self._seen(self._visits.get(visit_id)).content_sha256
+        if request.content_sha256 != content_sha256:
+            message = "The visit is otherwise by now: look at it again before you consent."
+            raise Conflict(message, "visit_changed")
+        consent = consent_of(request, person)
+        owner_id = None if person is None or person.role != "rider" else person.id
+        return self._seen(self._visits.consent(visit_id, lambda _: consent), owner_id)
+
+    def write_history(self, bike_id: int, file: IO[bytes]) -> None:
+        """Write the closed visits of a bike as a file. Raises NotFound, StoreError."""
+        visits = [one for one in self._visits.list(bike_id) if one.closed_us is not None]
+        bike = self._visits.bike_named(bike_id)
+        write_history(file, bike, visits, self._visits.photo)
+
+    def read_history(self, bike_id: int, file: IO[bytes]) -> HistoryAdded:
+        """Add the visits of a file that are not here yet, all or none of them.
+
+        Raises NotFound; InvalidRequest for a file that is no history; Conflict `visits_full`;
+        StoreError.
+        """
+        history = HistoryFile(file)
+        visits = [incoming(one) for one in history.visits]
+        for visit in visits:
+            for photo, data in history.photos(visit.content.photos):
+                self._visits.keep_photo(visit.token, photo, data)
+        added = self._visits.bring_all(bike_id, visits)
+        return HistoryAdded(added, len(visits) - added)
+
+    def _looked_at(
+        self, content: VisitContent, device_id: str, key_on_bike: str | None
+    ) -> VisitContent:
+        readings, faults = self._workbench.look(device_id)
+        require_on_bike(readings.unit_key, key_on_bike)
+        return with_look(content, readings, faults)
+
+    def _forget_unless_named(self, visit_id: int, sha256: str) -> None:
+        visit = self._visits.get(visit_id)
+        if all(one.sha256 != sha256 for one in visit.content.photos):
+            self._visits.forget_photo(visit.token, sha256)
+
+    def _worked_out(self, visit: StoredVisit) -> StoredVisit:
+        """A visit with what became of its unit; a closed one has that in its row."""
+        key = visit.content.unit_key
+        if visit.closed_us is not None or key is None:
+            return visit
+        revisions = self._revisions.list(key)
+        calibrations = tuple(
+            VisitCalibration(job.id, utc(job.closed_us), job.author, job.sha256)
+            for job in self._calibrations(key)
+            if job.closed_us is not None and job.sha256 and job.closed_us >= visit.opened_us
+        )
+        changes = changes_since(revisions, visit.content.revision_seq)
+        content = replace(visit.content, changes=changes, calibrations=calibrations)
+        return replace(visit, content=content)
+
+    def _seen(self, visit: StoredVisit, owner_id: int | None = None) -> Visit:
+        """A visit as it is answered. owner_id: of the owner who looks: other people's names are
+        none of their business."""
+        visit = self._worked_out(visit)
+        content, consent = visit.content, visit.consent
+        content_sha256 = sha256_of(plain(replace(content, customer="")))
+        holds = consent is not None and consent.content_sha256 == content_sha256
+        if owner_id is not None:
+            content = replace(content, customer="")
+            if consent is not None and consent.person_id != owner_id:
+                consent = replace(consent, name=None, strokes=())
+        return Visit(
+            id=visit.id,
+            token=visit.token,
+            bike_id=visit.bike_id,
+            bike_name=visit.bike_name,
+            state="open" if visit.closed_us is None else "closed",
+            opened_at=utc(visit.opened_us),
+            opened_by=visit.opened_by,
+            closed_at=utc_or_none(visit.closed_us),
+            version=visit.version,
+            imported=visit.imported,
+            content=content,
+            content_sha256=content_sha256,
+            consent=consent,
+            consent_holds=holds,
         )
 
-    def _parameters(self, device_id: str) -> dict[str, Any] | None:
-        """What the unit was last known to be set to; None where nobody knows."""
-        known = unless_away(lambda: self._tuning.last_known(device_id))
-        return None if known is None else {one.name: one.value for one in known.parameters}
+
+def written(content: VisitContent, words: VisitWords) -> VisitContent:
+    """A content with what was written; what is absent stays."""
+    names = VisitWords.model_fields.keys() & words.model_fields_set
+    values: Mapping[str, Any] = {name: getattr(words, name) for name in names}
+    if "parts" in values:
+        parts = (VisitPart(one.name, one.number, one.quantity) for one in words.parts)
+        values = {**values, "parts": tuple(parts)}
+    return replace(content, **values)
 
 
-def without_words(revision: Revision) -> SupportRevision:
-    """A revision without its author and reason."""
-    return SupportRevision(
-        revision.seq,
-        revision.created_at,
-        revision.state,
-        revision.generation,
-        revision.crc32,
-        tuple(dict(change) for change in revision.changed),
-    )
+def with_look(content: VisitContent, readings: Any, faults: Sequence[Any]) -> VisitContent:
+    """A content with one more look at the unit: the first is `before`, the last `after`."""
+    seen = seen_faults(content.faults, faults, readings.at)
+    if content.before is None:
+        return replace(content, before=readings, faults=seen)
+    return replace(content, after=readings, faults=seen)
 
 
-def unless_away(look: Callable[[], Found]) -> Found | None:
-    """What a unit says; None where it does not answer, or never said it."""
-    with suppress(LinkError, NotFound):
-        return look()
-    return None
+def require_on_bike(unit_key: str, key_on_bike: str | None) -> None:
+    """Raises Conflict `other_bike`."""
+    if unit_key != key_on_bike:
+        message = (
+            f"The unit {unit_key} is not on this bike: put it on it first, or connect its own."
+        )
+        raise Conflict(message, "other_bike")
+
+
+def consent_of(request: VisitConsentIn, person: Person | None) -> VisitConsent:
+    """A rider consents by their account; anybody else hands over a signature with its name.
+
+    Raises InvalidRequest.
+    """
+    at = utc(now_us())
+    if person is not None and person.role == "rider":
+        return VisitConsent("account", person.name, person.id, at, request.content_sha256, ())
+    name = request.name.strip()[:TEXT_MAX]
+    points = sum(len(stroke) for stroke in request.strokes) // 2
+    if not name or not 2 <= points <= POINTS_MAX or any(len(s) % 2 for s in request.strokes):
+        message = "A consent in the workshop has the owner's name and signature."
+        raise InvalidRequest(message, fields=[FieldError("strokes", "no_signature", message)])
+    strokes = tuple(tuple(round(at, 4) for at in stroke) for stroke in request.strokes)
+    return VisitConsent("signature", name, None, at, request.content_sha256, strokes)

@@ -7,7 +7,6 @@ refused, to everybody and on every server. Whoever has only their own gets from 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from enum import StrEnum
 from typing import Annotated, Protocol
 
@@ -119,7 +118,10 @@ async def require_own(connection: HTTPConnection, operation: str, whose: Sender)
     if kept is Own.NARROWED:
         return
     ownership: Ownership | None = connection.app.state.ownership
-    names: Mapping[str, str] = connection.path_params
+    # What is part of something, as a visit's photograph, goes by that.
+    names = {kind: name for kind, name in connection.path_params.items() if kind.endswith("_id")}
+    if not names:
+        raise NotAllowed("This is for the workshop.")
     for kind, name in names.items():
         own = ownership is not None and await run_in_threadpool(ownership.is_own, whose, kind, name)
         if not own:

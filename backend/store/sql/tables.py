@@ -148,6 +148,23 @@ revision = Table(
     UniqueConstraint("unit_key", "seq"),
 )
 
+# open_for: its bike while it is open, so that a bike has one open visit at most.
+visit = Table(
+    "visit",
+    metadata,
+    key(),
+    Column("token", String(32), nullable=False, unique=True),
+    Column("bike_id", KEY, ForeignKey("bike.id"), nullable=False, index=True),
+    Column("open_for", KEY, unique=True),
+    Column("opened_us", BigInteger, nullable=False),
+    Column("opened_by", String(128), nullable=False),
+    Column("closed_us", BigInteger),
+    Column("version", Integer, nullable=False),
+    Column("imported", Integer, nullable=False),
+    Column("body", JSON, nullable=False),
+    Column("consent", JSON),
+)
+
 # An item of the library that its user made. name: nobody else's; null once it is deleted.
 library_item = Table(
     "library_item",

@@ -134,7 +134,7 @@ def added_objects(
     rides = [key for key in keys if key.endswith(RIDE_SUFFIX)]
     # A sidecar is there for most rides; without it a ride lacks only what a person wrote.
     companions = [*map(sidecar_key, rides), *store.objects.table_keys()]
-    companions += store.objects.calibrating_keys()
+    companions += [*store.objects.calibrating_keys(), *store.objects.visit_keys()]
     for key in [IDENTITY, *keys, *companions]:
         try:
             file = store.objects.local_path(key)
