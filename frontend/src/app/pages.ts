@@ -25,5 +25,6 @@ export const loaders: Record<PageName, Loader> = {
   sensor: screen(() => import('../features/calibration/SensorPage.svelte')),
   service: screen(() => import('../features/service/ServicePage.svelte')),
   settings: screen(() => import('../features/settings/SettingsPage.svelte')),
+  visit: screen(() => import('../features/service/VisitPage.svelte')),
   unknown: screen(() => import('./UnknownPage.svelte')),
 }

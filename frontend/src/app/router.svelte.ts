@@ -21,6 +21,7 @@ export type PageName =
   | 'sensor'
   | 'service'
   | 'settings'
+  | 'visit'
   | 'unknown'
 
 export interface Route {
@@ -37,6 +38,13 @@ const pages: Record<string, PageName> = {
   sensor: 'sensor',
   service: 'service',
   settings: 'settings',
+}
+
+/** Pages of one thing, by what stands before its number. */
+const PAGES_OF_ONE: Record<string, PageName> = {
+  fleet: 'fleet_bike',
+  rides: 'ride',
+  visits: 'visit',
 }
 
 export function isOfTune(page: PageName): page is TunePage {
@@ -64,9 +72,8 @@ export function tunePath(page: TunePage): string {
 export function readRoute(place: string, home: PageName = 'bike'): Route {
   const [first = '', second = '', ...rest] = place.split('/')
   if (place.replace(/\/$/, '') === 'rides/compare') return { page: 'compare', id: '' }
-  if (second && rest.length === 0 && (first === 'rides' || first === 'fleet')) {
-    return { page: first === 'rides' ? 'ride' : 'fleet_bike', id: decodeURIComponent(second) }
-  }
+  const of_one = PAGES_OF_ONE[first]
+  if (second && rest.length === 0 && of_one) return { page: of_one, id: decodeURIComponent(second) }
   if (place === '') return { page: home, id: '' }
   const tune = TUNE_PAGES.find((page) => tunePath(page) === place.replace(/\/$/, ''))
   if (tune) return { page: tune, id: '' }

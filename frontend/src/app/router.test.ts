@@ -14,6 +14,7 @@ it.each([
   ['audit', { page: 'audit', id: '' }],
   ['audit/1', { page: 'unknown', id: '' }],
   ['fleet/12', { page: 'fleet_bike', id: '12' }],
+  ['visits/7', { page: 'visit', id: '7' }],
   ['tune', { page: 'tune', id: '' }],
   ['tune/modes', { page: 'modes', id: '' }],
   ['tune/try', { page: 'try', id: '' }],

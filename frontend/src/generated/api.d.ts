@@ -527,6 +527,188 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/bikes/{bike_id}/visits": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Visits
+         * @description The visits of a bike, the newest first; for its owner without other people's names.
+         */
+        get: operations["list_visits"];
+        put?: never;
+        /**
+         * Open Visit
+         * @description Begins a visit, and looks at the unit if one is named. 409 `visit_open` where one is open.
+         */
+        post: operations["open_visit"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/visits/{visit_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Visit
+         * @description One visit; of an open one with what is otherwise by now.
+         */
+        get: operations["get_visit"];
+        put?: never;
+        post?: never;
+        /**
+         * Remove Visit
+         * @description Removes an open visit that was begun by mistake; a closed one stays.
+         */
+        delete: operations["remove_visit"];
+        options?: never;
+        head?: never;
+        /**
+         * Change Visit
+         * @description Writes in an open visit; what is absent stays.
+         */
+        patch: operations["change_visit"];
+        trace?: never;
+    };
+    "/api/v1/visits/{visit_id}/readings": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Look At Unit
+         * @description Looks at the unit now: checks and faults. The first look is `before`, the last `after`.
+         */
+        post: operations["look_at_unit"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/visits/{visit_id}/close": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Close Visit
+         * @description Ends a visit with what is otherwise by now. Nothing but the consent is changed after.
+         */
+        post: operations["close_visit"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/visits/{visit_id}/consent": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Consent To Visit
+         * @description The owner agrees with what was done: by their account, or by a signature in the workshop.
+         */
+        post: operations["consent_to_visit"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/visits/{visit_id}/photos": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Add Visit Photo
+         * @description Keeps a photograph of up to 32 MiB: upright, 1600 px at most, without what the camera wrote
+         *     into the file.
+         */
+        post: operations["add_visit_photo"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/visits/{visit_id}/photos/{sha256}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Visit Photo
+         * @description A photograph as JPEG.
+         */
+        get: operations["get_visit_photo"];
+        put?: never;
+        post?: never;
+        /**
+         * Remove Visit Photo
+         * @description Takes a photograph out of an open visit, for good.
+         */
+        delete: operations["remove_visit_photo"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/bikes/{bike_id}/history": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Bike History
+         * @description The closed visits of a bike as one file that goes on with it, without the names of who
+         *     brought it or signed.
+         */
+        get: operations["get_bike_history"];
+        put?: never;
+        /**
+         * Add Bike History
+         * @description Adds the visits of such a file that are not here yet, all or none. Up to 512 MiB.
+         */
+        post: operations["add_bike_history"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/calibration/evaluate": {
         parameters: {
             query?: never;
@@ -2573,7 +2755,7 @@ export interface components {
          * @description What was done. It begins with what it was done to.
          * @enum {string}
          */
-        Action: "account_added" | "account_first_added" | "account_changed" | "account_password_set" | "account_removed" | "account_signed_in" | "account_signed_out_everywhere" | "key_added" | "key_revoked" | "bike_added" | "bike_changed" | "bike_unit_changed" | "bike_removed" | "bike_offered" | "bike_taken" | "bike_left" | "bike_rides_given" | "unit_first_seen" | "unit_connected" | "unit_named" | "unit_removed" | "unit_faults_cleared" | "unit_log_erased" | "unit_values_tried" | "unit_values_ended" | "configuration_found" | "configuration_written" | "configuration_tried" | "configuration_confirmed" | "configuration_rolled_back" | "calibration_opened" | "calibration_written" | "calibration_restored" | "calibration_closed" | "ride_changed" | "ride_deleted" | "upload_deleted" | "table_answered" | "table_forgotten" | "library_item_added" | "library_item_changed" | "library_item_removed" | "store_backed_up" | "store_rebuilt";
+        Action: "account_added" | "account_first_added" | "account_changed" | "account_password_set" | "account_removed" | "account_signed_in" | "account_signed_out_everywhere" | "key_added" | "key_revoked" | "bike_added" | "bike_changed" | "bike_unit_changed" | "bike_removed" | "bike_offered" | "bike_taken" | "bike_left" | "bike_rides_given" | "unit_first_seen" | "unit_connected" | "unit_named" | "unit_removed" | "unit_faults_cleared" | "unit_log_erased" | "unit_values_tried" | "unit_values_ended" | "configuration_found" | "configuration_written" | "configuration_tried" | "configuration_confirmed" | "configuration_rolled_back" | "calibration_opened" | "calibration_written" | "calibration_restored" | "calibration_closed" | "visit_opened" | "visit_closed" | "visit_consented" | "visit_removed" | "visit_brought" | "ride_changed" | "ride_deleted" | "upload_deleted" | "table_answered" | "table_forgotten" | "library_item_added" | "library_item_changed" | "library_item_removed" | "store_backed_up" | "store_rebuilt";
         /** Address */
         Address: {
             /**
@@ -2836,7 +3018,7 @@ export interface components {
              * Object Kind
              * @enum {string}
              */
-            object_kind: "account" | "key" | "bike" | "unit" | "configuration" | "calibration" | "ride" | "upload" | "table" | "library_item" | "store";
+            object_kind: "account" | "key" | "bike" | "unit" | "configuration" | "calibration" | "visit" | "ride" | "upload" | "table" | "library_item" | "store";
             /** Object Id */
             object_id: string | null;
             /**
@@ -5264,6 +5446,19 @@ export interface components {
              * @description What it is about: a part of the store, or the id of a unit.
              */
             part: string;
+        };
+        /**
+         * HistoryAdded
+         * @description What a bike's history brought.
+         */
+        HistoryAdded: {
+            /** Added */
+            added: number;
+            /**
+             * Known
+             * @description Visits that were here already; they stay as they are.
+             */
+            known: number;
         };
         /**
          * Identity
@@ -9778,6 +9973,426 @@ export interface components {
             crank_angle_deg: number;
         };
         /**
+         * Visit
+         * @description A service visit of a bike.
+         */
+        Visit: {
+            /** Id */
+            id: number;
+            /**
+             * Token
+             * @description The same on every server that has this visit.
+             */
+            token: string;
+            /** Bike Id */
+            bike_id: number;
+            /** Bike Name */
+            bike_name: string;
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "open" | "closed";
+            /**
+             * Opened At
+             * Format: date-time
+             */
+            opened_at: string;
+            /** Opened By */
+            opened_by: string;
+            /** Closed At */
+            closed_at: string | null;
+            /**
+             * Version
+             * @description Counts the changes of what people wrote.
+             */
+            version: number;
+            /**
+             * Imported
+             * @description It came with a bike's history from another server.
+             */
+            imported: boolean;
+            content: components["schemas"]["VisitContent"];
+            /**
+             * Content Sha256
+             * @description Of the content; what the owner consents to.
+             */
+            content_sha256: string;
+            consent: components["schemas"]["VisitConsent"] | null;
+            /**
+             * Consent Holds
+             * @description Nothing is otherwise than what was consented to.
+             */
+            consent_holds: boolean;
+        };
+        /**
+         * VisitCalibration
+         * @description A calibration that was closed during the visit.
+         */
+        VisitCalibration: {
+            /** Id */
+            id: number;
+            /**
+             * Closed At
+             * Format: date-time
+             */
+            closed_at: string;
+            /** Author */
+            author: string;
+            /** Sha256 */
+            sha256: string;
+        };
+        /**
+         * VisitChange
+         * @description A setting that is otherwise than before the visit, whatever was tried in between.
+         */
+        VisitChange: {
+            /** Parameter */
+            parameter: string;
+            /** Old */
+            old: unknown;
+            /** New */
+            new: unknown;
+            /**
+             * Changed At
+             * Format: date-time
+             */
+            changed_at: string;
+            /** Author */
+            author: string;
+            /** Reason */
+            reason: string;
+        };
+        /** VisitChangeIn */
+        VisitChangeIn: {
+            /**
+             * Job
+             * @default
+             */
+            job: string;
+            /**
+             * Technician
+             * @default
+             */
+            technician: string;
+            /**
+             * Customer
+             * @default
+             */
+            customer: string;
+            /** Counter Km */
+            counter_km?: number | null;
+            /**
+             * Complaint
+             * @default
+             */
+            complaint: string;
+            /**
+             * Done
+             * @default
+             */
+            done: string;
+            /**
+             * Notes
+             * @default
+             */
+            notes: string;
+            /** Parts */
+            parts?: components["schemas"]["VisitPartIn"][];
+            /**
+             * Version
+             * @description The version that was changed; 409 if it is another.
+             */
+            version: number;
+        };
+        /**
+         * VisitConsent
+         * @description The owner's consent to what was done, as the visit's content was then.
+         */
+        VisitConsent: {
+            /**
+             * By
+             * @enum {string}
+             */
+            by: "account" | "signature";
+            /**
+             * Name
+             * @description Null for an earlier owner's, to an owner.
+             */
+            name: string | null;
+            /**
+             * Person Id
+             * @description The account's number; null for a signature.
+             */
+            person_id: number | null;
+            /**
+             * At
+             * Format: date-time
+             */
+            at: string;
+            /** Content Sha256 */
+            content_sha256: string;
+            /**
+             * Strokes
+             * @description Of a signature: each x, y, x, y, ... as shares of the field's width and height.
+             */
+            strokes: number[][];
+        };
+        /**
+         * VisitConsentIn
+         * @description An owner with an account says nothing more; a workshop hands over the name and the signature
+         *     that somebody drew.
+         */
+        VisitConsentIn: {
+            /**
+             * Content Sha256
+             * @description What is consented to; 409 if it is otherwise now.
+             */
+            content_sha256: string;
+            /**
+             * Name
+             * @default
+             */
+            name: string;
+            /** Strokes */
+            strokes?: number[][];
+        };
+        /**
+         * VisitContent
+         * @description What a visit is about. The workshop writes the words, the server adds what units report.
+         */
+        VisitContent: {
+            /**
+             * Job
+             * @description The workshop's number of the job.
+             * @default
+             */
+            job: string;
+            /**
+             * Technician
+             * @default
+             */
+            technician: string;
+            /**
+             * Customer
+             * @description Who brought it. Not in the history that goes on to others, and for the workshop only.
+             * @default
+             */
+            customer: string;
+            /** Counter Km */
+            counter_km: number | null;
+            /**
+             * Complaint
+             * @default
+             */
+            complaint: string;
+            /**
+             * Done
+             * @default
+             */
+            done: string;
+            /**
+             * Notes
+             * @default
+             */
+            notes: string;
+            /**
+             * Parts
+             * @default []
+             */
+            parts: components["schemas"]["VisitPart"][];
+            /**
+             * Unit Key
+             * @description The unit that was on the bike when the visit began.
+             */
+            unit_key: string | null;
+            /**
+             * Revision Seq
+             * @description The newest configuration of that unit when the visit began.
+             */
+            revision_seq: number | null;
+            /** @description The first readings. */
+            before: components["schemas"]["VisitReadings"] | null;
+            /** @description The last ones, null before there are second ones. */
+            after: components["schemas"]["VisitReadings"] | null;
+            /**
+             * Faults
+             * @default []
+             */
+            faults: components["schemas"]["VisitFault"][];
+            /**
+             * Changes
+             * @default []
+             */
+            changes: components["schemas"]["VisitChange"][];
+            /**
+             * Calibrations
+             * @default []
+             */
+            calibrations: components["schemas"]["VisitCalibration"][];
+            /**
+             * Photos
+             * @default []
+             */
+            photos: components["schemas"]["VisitPhoto"][];
+        };
+        /**
+         * VisitFault
+         * @description A fault that the unit had during the visit, or remembered.
+         */
+        VisitFault: {
+            /** Name */
+            name: string;
+            /**
+             * Count
+             * @description How often since the unit's start, as last seen.
+             */
+            count: number | null;
+            /**
+             * Seen At
+             * Format: date-time
+             */
+            seen_at: string;
+            /**
+             * Over At
+             * @description When it was first seen to be over, null while it is there.
+             */
+            over_at: string | null;
+        };
+        /** VisitIn */
+        VisitIn: {
+            /**
+             * Job
+             * @default
+             */
+            job: string;
+            /**
+             * Technician
+             * @default
+             */
+            technician: string;
+            /**
+             * Customer
+             * @default
+             */
+            customer: string;
+            /** Counter Km */
+            counter_km?: number | null;
+            /**
+             * Complaint
+             * @default
+             */
+            complaint: string;
+            /**
+             * Done
+             * @default
+             */
+            done: string;
+            /**
+             * Notes
+             * @default
+             */
+            notes: string;
+            /** Parts */
+            parts?: components["schemas"]["VisitPartIn"][];
+            /**
+             * Device Id
+             * @description The unit on the bike, to be looked at now.
+             */
+            device_id?: string | null;
+        };
+        /**
+         * VisitList
+         * @description The newest first.
+         */
+        VisitList: {
+            /** Items */
+            items: components["schemas"]["Visit"][];
+        };
+        /**
+         * VisitPart
+         * @description What was built in.
+         */
+        VisitPart: {
+            /** Name */
+            name: string;
+            /**
+             * Number
+             * @description The maker's number of it.
+             */
+            number: string | null;
+            /** Quantity */
+            quantity: number;
+        };
+        /** VisitPartIn */
+        VisitPartIn: {
+            /** Name */
+            name: string;
+            /** Number */
+            number?: string | null;
+            /**
+             * Quantity
+             * @default 1
+             */
+            quantity: number;
+        };
+        /**
+         * VisitPhoto
+         * @description A photograph, without what the camera wrote into it.
+         */
+        VisitPhoto: {
+            /** Sha256 */
+            sha256: string;
+            /** Name */
+            name: string;
+            /** Width Px */
+            width_px: number;
+            /** Height Px */
+            height_px: number;
+            /** Size Bytes */
+            size_bytes: number;
+            /**
+             * Added At
+             * Format: date-time
+             */
+            added_at: string;
+        };
+        /**
+         * VisitReadings
+         * @description The unit as it was looked at.
+         */
+        VisitReadings: {
+            /**
+             * At
+             * Format: date-time
+             */
+            at: string;
+            /** Unit Key */
+            unit_key: string;
+            /** Serial Number */
+            serial_number: string | null;
+            /** Model */
+            model: string | null;
+            /** Firmware Version */
+            firmware_version: string | null;
+            /** Generation */
+            generation: number | null;
+            /** Crc32 */
+            crc32: number | null;
+            /** Checks */
+            checks: components["schemas"]["UnitCheck"][];
+            /** Faults Active */
+            faults_active: string[];
+        };
+        /** VisitReadingsIn */
+        VisitReadingsIn: {
+            /**
+             * Device Id
+             * @description The unit on the bike.
+             */
+            device_id: string;
+        };
+        /**
          * WearCounters
          * @description What the unit knows of its own wear. What is not saved yet is lost with its supply, a minute
          *     at most.
@@ -11259,7 +11874,7 @@ export interface operations {
                 /** @description Part of a name, of a person or a key. */
                 who?: string | null;
                 action?: components["schemas"]["Action"] | null;
-                object_kind?: ("account" | "key" | "bike" | "unit" | "configuration" | "calibration" | "ride" | "upload" | "table" | "library_item" | "store") | null;
+                object_kind?: ("account" | "key" | "bike" | "unit" | "configuration" | "calibration" | "visit" | "ride" | "upload" | "table" | "library_item" | "store") | null;
                 unit_key?: string | null;
                 bike_id?: number | null;
                 from?: string | null;
@@ -11316,7 +11931,7 @@ export interface operations {
                 /** @description Part of a name, of a person or a key. */
                 who?: string | null;
                 action?: components["schemas"]["Action"] | null;
-                object_kind?: ("account" | "key" | "bike" | "unit" | "configuration" | "calibration" | "ride" | "upload" | "table" | "library_item" | "store") | null;
+                object_kind?: ("account" | "key" | "bike" | "unit" | "configuration" | "calibration" | "visit" | "ride" | "upload" | "table" | "library_item" | "store") | null;
                 unit_key?: string | null;
                 bike_id?: number | null;
                 from?: string | null;
@@ -12230,6 +12845,945 @@ export interface operations {
             };
             /** @description Gateway Timeout */
             504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_visits: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                bike_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["VisitList"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    open_visit: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Whose change this is, percent-encoded UTF-8; without it that of the server's setting `author`. It is kept, marked `stated`. Who signed in or sends a key is the author, whatever this says. */
+                "spindle-author"?: string | null;
+            };
+            path: {
+                bike_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["VisitIn"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Visit"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Gateway Timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_visit: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                visit_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Visit"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    remove_visit: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                visit_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    change_visit: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                visit_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["VisitChangeIn"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Visit"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    look_at_unit: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                visit_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["VisitReadingsIn"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Visit"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Service Unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Gateway Timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    close_visit: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                visit_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Visit"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    consent_to_visit: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                visit_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["VisitConsentIn"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Visit"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    add_visit_photo: {
+        parameters: {
+            query: {
+                /** @description Of the file. */
+                name: string;
+            };
+            header?: never;
+            path: {
+                visit_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "image/jpeg": string;
+                "image/png": string;
+                "image/webp": string;
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Visit"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_visit_photo: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                visit_id: number;
+                sha256: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "image/jpeg": unknown;
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    remove_visit_photo: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                visit_id: number;
+                sha256: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Visit"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_bike_history: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                bike_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/zip": unknown;
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    add_bike_history: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                bike_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/zip": string;
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["HistoryAdded"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -6,6 +6,7 @@ export const KINDS = [
   'unit',
   'configuration',
   'calibration',
+  'visit',
   'ride',
   'upload',
   'table',

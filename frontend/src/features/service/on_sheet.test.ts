@@ -3,8 +3,7 @@
    history has it. */
 import type { Revision, Ride } from '$shared/api/types'
 import { expect, it } from 'vitest'
-import { newJob, type Job } from './job'
-import { lastChange, rideAfter } from './on_sheet'
+import { lastChange, rideAfter, type Work } from './on_sheet'
 
 const at = (hour: number) => new Date(Date.UTC(2026, 10, 22, hour)).toISOString()
 const ride = (hour: number, state = 'done') => {
@@ -15,25 +14,24 @@ const revision = (hour: number, changed: Revision['changed'] = []) => {
   const row: Partial<Revision> = { seq: hour, created_at: at(hour), changed }
   return row as Revision
 }
-const job = (...over: number[]): Job => ({
-  ...newJob(),
+const work = (...over: number[]): Work => ({
   begun_at: at(8),
   faults: over.map((hour) => ({ name: `${hour}`, count: 1, seen_at: at(8), over_at: at(hour) })),
 })
 
 it('takes a ride after the newest settings and the newest fault that was over', () => {
-  expect(rideAfter(ride(14), job(), [revision(13), revision(9)])?.id).toBe(14)
-  expect(rideAfter(ride(12), job(), [revision(13), revision(9)])).toBeNull()
-  expect(rideAfter(ride(14), job(15, 10), [revision(13)])).toBeNull()
+  expect(rideAfter(ride(14), work(), [revision(13), revision(9)])?.id).toBe(14)
+  expect(rideAfter(ride(12), work(), [revision(13), revision(9)])).toBeNull()
+  expect(rideAfter(ride(14), work(15, 10), [revision(13)])).toBeNull()
   // Over when it was first seen: its start is unknown.
-  expect(rideAfter(ride(9), { ...job(8), begun_at: at(7) }, [])?.id).toBe(9)
+  expect(rideAfter(ride(9), { ...work(8), begun_at: at(7) }, [])?.id).toBe(9)
 })
 
 it('takes one after the sheet was begun where nothing was done, and none that goes on', () => {
-  expect(rideAfter(ride(9), job(), [])?.id).toBe(9)
-  expect(rideAfter(ride(7), job(), [])).toBeNull()
-  expect(rideAfter(ride(9, 'live'), job(), [])).toBeNull()
-  expect(rideAfter(null, job(), [])).toBeNull()
+  expect(rideAfter(ride(9), work(), [])?.id).toBe(9)
+  expect(rideAfter(ride(7), work(), [])).toBeNull()
+  expect(rideAfter(ride(9, 'live'), work(), [])).toBeNull()
+  expect(rideAfter(null, work(), [])).toBeNull()
 })
 
 it('shows the newest change of a parameter, and none where there was none', () => {

@@ -1,6 +1,12 @@
 // What of a unit's history belongs onto the sheet of a job.
 import type { ParameterValue, Revision, Ride } from '$shared/api/types'
-import type { Job } from './job'
+import type { VisitFault } from '$shared/api/visit_server'
+
+/** What was worked on: the faults seen meanwhile, and since when. */
+export interface Work {
+  faults: readonly VisitFault[]
+  begun_at: string
+}
 
 export interface LastChange {
   old: ParameterValue | null
@@ -19,21 +25,21 @@ export function lastChange(revisions: readonly Revision[], name: string): LastCh
 
 /** When the work on a unit was last seen to be done: the newest settings, the newest fault that was
     over; without either when the sheet was begun. */
-export function workedAt(job: Job, revisions: readonly Revision[]): string {
+export function workedAt(work: Work, revisions: readonly Revision[]): string {
   // One that was over when it was first seen has no time.
-  const gone = job.faults.filter(({ seen_at, over_at }) => over_at !== seen_at)
+  const gone = work.faults.filter(({ seen_at, over_at }) => over_at !== seen_at)
   const over = gone.flatMap(({ over_at }) => over_at ?? [])
   const done = [...over, ...revisions.slice(0, 1).map(({ created_at }) => created_at)]
-  const times = (done.length > 0 ? done : [job.begun_at]).map((at) => Date.parse(at))
+  const times = (done.length > 0 ? done : [work.begun_at]).map((at) => Date.parse(at))
   return new Date(Math.max(...times)).toISOString()
 }
 
 /** The ride if it is over and began after the work. */
 export function rideAfter(
   ride: Ride | null,
-  job: Job,
+  work: Work,
   revisions: readonly Revision[],
 ): Ride | null {
   if (ride?.state !== 'done') return null
-  return Date.parse(ride.started_at) > Date.parse(workedAt(job, revisions)) ? ride : null
+  return Date.parse(ride.started_at) > Date.parse(workedAt(work, revisions)) ? ride : null
 }
