@@ -131,7 +131,6 @@ def open_services(
         follow(devices, memory.follow, recorder.watch, dashboards.follow, recent.follow)
         closing.enter_context(upkeep(recorder, uploads, store, last_seen, devices, cards, audit))
         open_units(settings, devices)
-        proposals = closed_by(closing, Proposals(store, memory.ride_config, proofs))
         people = PeopleService(store.database) if settings.needs_sign_in else None
         yield Services(
             store=StoreService(store, __version__, audit.note),
@@ -154,7 +153,7 @@ def open_services(
             rides=make_rides(store, memory, devices, recorder),
             home=RiderHomeService(store),
             ride_again=RideAgain(store, memory.ride_config),
-            proposals=proposals,
+            proposals=closed_by(closing, Proposals(store, memory.ride_config, proofs)),
             use_of_table=UseOfTable(store, memory.ride_config, devices.unit_at),
             since_change=RidesSinceChange(store, tuning.revisions),
             sensor_drift=make_drift(store, devices, tuning),

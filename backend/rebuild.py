@@ -212,7 +212,7 @@ def bring_back_calibrations(
         if not key.endswith(SIDECAR_SUFFIX):
             continue
         try:
-            report.visits += bring_back_visit(database, objects.read_json(key) or {})
+            report.visits += bring_back_visit(database, objects, objects.read_json(key) or {})
         except StoreError as error:
             report.stay[key] = error.message
     for key in objects.calibrating_keys():

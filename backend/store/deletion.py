@@ -24,6 +24,7 @@ from backend.store.objects import RIDE_SUFFIX, SIDECAR_SUFFIX, Objects
 from backend.store.ride_table import remove_ride
 from backend.store.sql import tables as t
 from backend.store.sql.database import Database
+from backend.store.visit_files import is_named_by_visit, is_of_visits
 
 LOG = logging.getLogger(__name__)
 
@@ -88,7 +89,9 @@ def struck_off(connection: Connection, gone: Iterable[tuple[str, int]]) -> None:
 
 
 def is_needed(connection: Connection, key: str) -> bool:
-    """Whether a ride or an upload has this object, or the ride whose sidecar it is."""
+    """Whether a ride, an upload or a visit has this object, or the ride whose sidecar it is."""
+    if is_of_visits(key):
+        return is_named_by_visit(connection, key)
     of_ride = key.removesuffix(SIDECAR_SUFFIX) + RIDE_SUFFIX
     ride = select(t.ride.c.id).where(t.ride.c.object_key.in_((key, of_ride))).limit(1)
     arrived = t.upload.c.object_key.is_(None) & (t.upload.c.sha256 == key.rsplit("/", 1)[-1])

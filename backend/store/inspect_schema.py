@@ -29,7 +29,7 @@ TIME_MAX_US = 253_402_300_800_000_000
 # Every schema has these.
 OURS = frozenset({"ride", "upload"})
 # Tables whose rows somebody would miss.
-MISSED = frozenset({"ride", "upload", "unit", "revision", "calibration", "account"})
+MISSED = frozenset({"ride", "upload", "unit", "revision", "calibration", "visit", "account"})
 
 
 @dataclass(frozen=True)

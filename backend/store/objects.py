@@ -6,6 +6,7 @@
     originals/ab/<sha256>       a file as it came
     calibrations/ab/<sha256>.json   a closed calibration: captures, certificate, what was done
     lost+found/...              what was in these three and the database did not know
+    tables/, calibrating/, visits/   small files of their features, which no start moves away
 
 An object appears under its key all at once or not at all: it is written beside, flushed, renamed,
 and the folder is flushed. Only what is named here is ever looked at, moved or removed: the folder
@@ -147,7 +148,7 @@ class FileObjects:
             body = json.loads((self.root / key).read_text(encoding="utf-8"))
         except FileNotFoundError:
             return None
-        except (OSError, ValueError) as error:
+        except (OSError, ValueError, RecursionError) as error:
             raise StoreError(f"{self.root / key} cannot be read: {error}.") from error
         if not isinstance(body, dict):
             raise StoreError(f"{self.root / key} cannot be read: it is no JSON object.")

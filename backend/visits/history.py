@@ -12,14 +12,17 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from os import SEEK_END
+from struct import error as StructError
 from typing import IO, Any
 from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, ZipFile
+from zlib import error as ZlibError
 
 from backend.errors import FieldError, InvalidRequest, StoreError
 from backend.store.wall_clock import now_us
-from backend.visits.photos import require_jpeg
-from backend.visits.records import StoredVisit, file_of, visit_of_file
-from backend.visits.types import PHOTOS_MAX, VisitPhoto
+from backend.visits.files import StoredVisit, file_of, visit_of_file
+from backend.visits.photos import require_as_drawn
+from backend.visits.types import PHOTOS_MAX, VISITS_MAX, VisitPhoto, VisitWords
 
 FORMAT, VERSION = "spindle-bike-history", 1
 MANIFEST = "history.json"
@@ -29,7 +32,23 @@ MANIFEST_BYTES_MAX = 32 * 1024 * 1024
 PHOTO_BYTES_MAX = 4 * 1024 * 1024
 # In characters of JSON: everything that a visit may have is a tenth of it.
 VISIT_LENGTH_MAX = 1_000_000
+# Its list of names, which Python holds as a whole; a thousand visits with every photograph take 3.
+DIRECTORY_BYTES_MAX = 4 * 1024 * 1024
 DAY_US = 86_400_000_000
+# Where a ZIP file ends, without a comment, and the mark of one of more than 4 GiB before that.
+END, END_BYTES, END_64, END_64_BYTES = b"PK\x05\x06", 22, b"PK\x06\x07", 20
+# What zipfile and its decompressors raise on damage or on a method they do not know.
+DAMAGE = (
+    BadZipFile,
+    ZlibError,
+    EOFError,
+    OSError,
+    NotImplementedError,
+    RuntimeError,
+    ValueError,
+    LookupError,
+    StructError,
+)
 
 Photo = Callable[[str, str], bytes]
 
@@ -74,13 +93,15 @@ class HistoryFile:
     """A history that came in. Raises InvalidRequest for a file that is none, at any step."""
 
     def __init__(self, file: IO[bytes]) -> None:
+        require_short_directory(file)
         try:
             self._archive = ZipFile(file)
-        except (BadZipFile, OSError, ValueError) as error:
+        except DAMAGE as error:
             raise refused(f"This is no ZIP file: {error}.") from error
+        self._photo_bytes = 0
         try:
             body = json.loads(self._read(MANIFEST, MANIFEST_BYTES_MAX))
-        except ValueError as error:
+        except (ValueError, RecursionError) as error:
             raise refused(f"{MANIFEST} cannot be read: {error}.") from error
         if not isinstance(body, dict) or body.get("format") != FORMAT:
             raise refused("This is no history of a bike.")
@@ -89,15 +110,19 @@ class HistoryFile:
         visits = body.get("visits")
         if not isinstance(visits, list) or not all(isinstance(one, dict) for one in visits):
             raise refused(f"{MANIFEST} has no list of visits.")
+        if len(visits) > VISITS_MAX:
+            raise refused(f"A bike has {VISITS_MAX} visits at most.", "visits_full")
         self.visits: list[dict[str, Any]] = visits
 
     def photos(self, photos: Sequence[VisitPhoto]) -> Iterator[tuple[VisitPhoto, bytes]]:
-        """The photographs that a visit names, each checked against its hash."""
-        if len(photos) > PHOTOS_MAX:
-            raise refused(f"A visit has {PHOTOS_MAX} photographs at most.")
+        """The photographs that a visit names, each checked to be the one that it names."""
         for photo in photos:
             data = self._read(photo_name(photo.sha256), PHOTO_BYTES_MAX)
-            require_jpeg(data, photo)
+            require_as_drawn(data, photo)
+            # Each visit has its own, also of one that stands in the file once.
+            self._photo_bytes += len(data)
+            if self._photo_bytes > HISTORY_BYTES_MAX:
+                raise refused("Its photographs become more than it may have.", "too_large")
             yield photo, data
 
     def _read(self, name: str, bytes_max: int) -> bytes:
@@ -105,25 +130,52 @@ class HistoryFile:
         try:
             with self._archive.open(name) as entry:
                 data = entry.read(bytes_max + 1)
-        except (KeyError, BadZipFile, OSError, ValueError, NotImplementedError, RuntimeError) as e:
-            raise refused(f"{name} cannot be read: {e}.") from e
+        except DAMAGE as error:
+            raise refused(f"{name} cannot be read: {error}.") from error
         if len(data) > bytes_max:
             raise refused(f"{name} is larger than {bytes_max} bytes.")
         return data
 
 
 def incoming(file: Mapping[str, Any]) -> StoredVisit:
-    """A visit of a history. Raises InvalidRequest for one that is none, or is open."""
+    """A visit of a history, without names. Raises InvalidRequest for one that is none, is open, or
+    has what nobody could have written here."""
     try:
         visit = visit_of_file(file)
+        content: Mapping[str, Any] = file["content"]
+        names = VisitWords.model_fields.keys() & content.keys()
+        VisitWords.model_validate({name: content[name] for name in names})
     except StoreError as error:
         raise refused(error.message) from error
+    except ValueError as error:
+        raise refused(f"A visit has what nobody writes: {error!r:.300}.") from error
+    if len(visit.content.photos) > PHOTOS_MAX:
+        raise refused(f"A visit has {PHOTOS_MAX} photographs at most.")
     now = now_us()
     if visit.closed_us is None or not 0 < visit.opened_us <= visit.closed_us <= now + DAY_US:
         raise refused("A visit of a history is closed, and not in the future.")
     if len(json.dumps(file)) > VISIT_LENGTH_MAX:
         raise refused(f"A visit has at most {VISIT_LENGTH_MAX} characters.")
-    return replace(visit, imported=True)
+    return without_names(replace(visit, imported=True))
+
+
+def require_each_once(visits: Sequence[StoredVisit]) -> None:
+    """Raises InvalidRequest for a history that has a visit twice."""
+    if len({visit.token for visit in visits}) < len(visits):
+        raise refused("The file has a visit twice.")
+
+
+def require_short_directory(file: IO[bytes]) -> None:
+    """A ZIP of bounded size may list ten million names, a gigabyte for zipfile. Raises
+    InvalidRequest for one that does, and for what does not end as a ZIP does."""
+    size = file.seek(0, SEEK_END)
+    file.seek(max(0, size - END_BYTES - END_64_BYTES))
+    tail = file.read()
+    end = tail[-END_BYTES:]
+    if len(end) < END_BYTES or not end.startswith(END) or end[-2:] != bytes(2):
+        raise refused("This is no ZIP file.")
+    if tail.startswith(END_64) or int.from_bytes(end[12:16], "little") > DIRECTORY_BYTES_MAX:
+        raise refused("The file lists more than a history has.", "too_large")
 
 
 def refused(message: str, code: str = "no_history") -> InvalidRequest:

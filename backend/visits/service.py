@@ -16,9 +16,10 @@ from backend.core.revision import RevisionLog
 from backend.errors import Conflict, FieldError, InvalidRequest, NotFound
 from backend.store.wall_clock import now_us
 from backend.visits.changes import changes_since, seen_faults
-from backend.visits.history import HistoryFile, incoming, write_history
+from backend.visits.files import StoredVisit, plain
+from backend.visits.history import HistoryFile, incoming, require_each_once, write_history
 from backend.visits.photos import drawn_anew
-from backend.visits.records import StoredVisit, VisitStore, plain
+from backend.visits.records import VisitStore
 from backend.visits.types import (
     PHOTOS_MAX,
     POINTS_MAX,
@@ -110,13 +111,12 @@ class Visits:
     def add_photo(self, visit_id: int, name: str, data: bytes) -> Visit:
         """Keep a photograph, drawn anew. Raises NotFound; InvalidRequest; Conflict `visit_closed`,
         `photos_full`; StoreError."""
-        visit = self._visits.get(visit_id)
+        require_open(self._visits.get(visit_id))
         with self._drawing:
             jpeg, width_px, height_px = drawn_anew(data)
         sha256 = hashlib.sha256(jpeg).hexdigest()
         added_at = utc(now_us())
         photo = VisitPhoto(sha256, name, width_px, height_px, len(jpeg), added_at)
-        self._visits.keep_photo(visit.token, photo, jpeg)
 
         def added(now: VisitContent) -> VisitContent:
             if any(one.sha256 == sha256 for one in now.photos):
@@ -125,11 +125,7 @@ class Visits:
                 raise Conflict(f"A visit has {PHOTOS_MAX} photographs at most.", "photos_full")
             return replace(now, photos=(*now.photos, photo))
 
-        try:
-            return self._seen(self._visits.change(visit_id, added))
-        except Exception:
-            self._forget_unless_named(visit_id, sha256)
-            raise
+        return self._seen(self._visits.add_photo(visit_id, photo, jpeg, added))
 
     def photo(self, visit_id: int, sha256: str) -> bytes:
         """A photograph as JPEG. Raises NotFound, StoreError."""
@@ -147,9 +143,7 @@ class Visits:
                 raise NotFound(f"Visit {visit_id} has no photograph {sha256}.")
             return replace(now, photos=left)
 
-        visit = self._visits.change(visit_id, without)
-        self._visits.forget_photo(visit.token, sha256)
-        return self._seen(visit)
+        return self._seen(self._visits.change(visit_id, without))
 
     def close(self, visit_id: int) -> Visit:
         """End a visit with what is otherwise now. Raises NotFound, Conflict `visit_closed`,
@@ -195,12 +189,14 @@ class Visits:
         Raises NotFound; InvalidRequest for a file that is no history; Conflict `visits_full`;
         StoreError.
         """
+        # Nothing of a file is read for a bike that is not here.
+        self._visits.bike_named(bike_id)
         history = HistoryFile(file)
         visits = [incoming(one) for one in history.visits]
-        for visit in visits:
-            for photo, data in history.photos(visit.content.photos):
-                self._visits.keep_photo(visit.token, photo, data)
-        added = self._visits.bring_all(bike_id, visits)
+        require_each_once(visits)
+        added = self._visits.bring_all(
+            bike_id, visits, lambda visit: history.photos(visit.content.photos)
+        )
         return HistoryAdded(added, len(visits) - added)
 
     def _looked_at(
@@ -209,11 +205,6 @@ class Visits:
         readings, faults = self._workbench.look(device_id)
         require_on_bike(readings.unit_key, key_on_bike)
         return with_look(content, readings, faults)
-
-    def _forget_unless_named(self, visit_id: int, sha256: str) -> None:
-        visit = self._visits.get(visit_id)
-        if all(one.sha256 != sha256 for one in visit.content.photos):
-            self._visits.forget_photo(visit.token, sha256)
 
     def _worked_out(self, visit: StoredVisit) -> StoredVisit:
         """A visit with what became of its unit; a closed one has that in its row."""
@@ -257,6 +248,12 @@ class Visits:
             consent=consent,
             consent_holds=holds,
         )
+
+
+def require_open(visit: StoredVisit) -> None:
+    """Raises Conflict for a closed one."""
+    if visit.closed_us is not None:
+        raise Conflict("This visit is closed: what was done then stays.", "visit_closed")
 
 
 def written(content: VisitContent, words: VisitWords) -> VisitContent:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from datetime import datetime
 from typing import Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import AwareDatetime, Field
 
 from backend.core.api_models import RequestBody
 from backend.core.described import described
@@ -64,6 +64,8 @@ class SupportFile:
     """Newest first."""
 
 
+# Of a bike; one a week for twenty years.
+VISITS_MAX = 1_000
 TEXT_MAX, LONG_TEXT_MAX = 60, 2_000
 PARTS_MAX, PHOTOS_MAX = 50, 20
 # Of a signature, in points; a slow one on a tablet has some 600.
@@ -89,8 +91,8 @@ class VisitFault:
     name: str
     count: int | None
     """How often since the unit's start, as last seen."""
-    seen_at: datetime
-    over_at: datetime | None
+    seen_at: AwareDatetime
+    over_at: AwareDatetime | None
     """When it was first seen to be over, null while it is there."""
 
 
@@ -101,7 +103,7 @@ class VisitChange:
     parameter: str
     old: Any
     new: Any
-    changed_at: datetime
+    changed_at: AwareDatetime
     author: str
     reason: str
 
@@ -111,7 +113,7 @@ class VisitCalibration:
     """A calibration that was closed during the visit."""
 
     id: int
-    closed_at: datetime
+    closed_at: AwareDatetime
     author: str
     sha256: str
 
@@ -120,7 +122,7 @@ class VisitCalibration:
 class VisitReadings:
     """The unit as it was looked at."""
 
-    at: datetime
+    at: AwareDatetime
     unit_key: str
     serial_number: str | None
     model: str | None
@@ -140,7 +142,7 @@ class VisitPhoto:
     width_px: int
     height_px: int
     size_bytes: int
-    added_at: datetime
+    added_at: AwareDatetime
 
 
 @described
@@ -152,7 +154,7 @@ class VisitConsent:
     """Null for an earlier owner's, to an owner."""
     person_id: int | None
     """The account's number; null for a signature."""
-    at: datetime
+    at: AwareDatetime
     content_sha256: str
     strokes: tuple[tuple[float, ...], ...]
     """Of a signature: each x, y, x, y, ... as shares of the field's width and height."""

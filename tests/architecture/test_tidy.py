@@ -19,12 +19,12 @@ FUNCTION_LINES_MAX = 70
 LINE_LENGTH_MAX = 100
 CODE_SUFFIXES = {".py", ".c", ".h", ".ts", ".svelte", ".css"}
 LINES_MAX = {
-    "backend": 1_710,
+    "backend": 1_740,
     "backend/audit": 370,
     "backend/bikes": 920,
     "backend/calibration": 7_650,
     "backend/cli": 2_080,
-    "backend/core": 3_070,
+    "backend/core": 3_080,
     "backend/device": 6_550,
     "backend/formats": 8_550,
     "backend/imports": 2_870,
@@ -33,16 +33,16 @@ LINES_MAX = {
     "backend/people": 1_540,
     "backend/rides": 10_650,
     "backend/server": 660,
-    "backend/store": 8_180,
+    "backend/store": 8_300,
     "backend/tuning": 3_540,
     "backend/units": 2_270,
-    "backend/visits": 360,
+    "backend/visits": 2_060,
     "backend/web": 1_740,
     "firmware_protocol": 4_450,
-    "frontend": 47_550,
+    "frontend": 48_900,
     "sim_device": 21_150,
     "spindle": 700,
-    "tests": 74_610,
+    "tests": 76_580,
     "tools": 4_800,
 }
 """Lines of written code a room may have. A commit lowers a budget with what it removes; one that

@@ -18,29 +18,16 @@ from sqlalchemy import (
     Index,
     Integer,
     LargeBinary,
-    MetaData,
     String,
     Table,
     Text,
     UniqueConstraint,
 )
 
-# Alembic can only change what has a name, on SQLite too.
-NAMING = {
-    "ix": "ix_%(table_name)s_%(column_0_N_name)s",
-    "uq": "uq_%(table_name)s_%(column_0_N_name)s",
-    "ck": "ck_%(table_name)s_%(constraint_name)s",
-    "fk": "fk_%(table_name)s_%(column_0_N_name)s_%(referred_table_name)s",
-    "pk": "pk_%(table_name)s",
-}
-metadata = MetaData(naming_convention=NAMING)
-
-KEY = BigInteger().with_variant(Integer, "sqlite")
-
-
-def key() -> Column[int]:
-    return Column("id", KEY, primary_key=True, autoincrement=True)
-
+from backend.store.sql.audit_tables import audit_event as audit_event
+from backend.store.sql.audit_tables import audit_head as audit_head
+from backend.store.sql.every_table import KEY, key
+from backend.store.sql.every_table import metadata as metadata
 
 # One row: which folder of objects this database belongs to. rebuilding: a rebuild is not through.
 # server_id: the server that took the lock last; on PostgreSQL only its transactions commit.
@@ -474,39 +461,4 @@ api_key = Table(
     Column("revoked_us", BigInteger),
     # The one bike whose files it sends.
     Column("bike_id", KEY, index=True),
-)
-
-# Who changed what: appended, and never changed or removed, which triggers refuse. id: counts from 1
-# without a gap. actor_id: the account's number, whatever became of it. before, after: canonical
-# JSON, as hashed. sha256: of all the other members; how: backend/store/audit.py.
-audit_event = Table(
-    "audit_event",
-    metadata,
-    Column("id", KEY, primary_key=True, autoincrement=False),
-    Column("at_us", BigInteger, nullable=False, index=True),
-    Column("actor_kind", String(16), nullable=False),
-    Column("actor_id", KEY),
-    Column("actor_name", Text, nullable=False),
-    Column("actor_key", Text),
-    Column("action", String(40), nullable=False),
-    Column("object_kind", String(16), nullable=False),
-    Column("object_id", Text),
-    Column("object_name", Text),
-    Column("unit_key", Text),
-    Column("bike_id", KEY),
-    Column("before", Text),
-    Column("after", Text),
-    Column("reason", Text),
-    Column("previous_sha256", String(64), nullable=False),
-    Column("sha256", String(64), nullable=False),
-    Index(None, "unit_key", "id"),
-    Index(None, "bike_id", "id"),
-)
-
-# One row, the number and hash of the last event: whoever appends holds it until the commit.
-audit_head = Table(
-    "audit_head",
-    metadata,
-    Column("last_id", KEY, nullable=False),
-    Column("sha256", String(64), nullable=False),
 )

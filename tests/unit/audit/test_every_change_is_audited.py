@@ -10,10 +10,12 @@ calibration is one of the bench's. What was secret that day is looked for in all
 from __future__ import annotations
 
 import hashlib
+import io
 import json
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
+from zipfile import ZipFile
 
 import httpx
 import pytest
@@ -55,6 +57,11 @@ AUDITED: dict[str, tuple[Action, ...]] = {
     "leave_bike": (A.BIKE_LEFT,),
     "give_rides": (A.BIKE_RIDES_GIVEN,),
     "remove_bike": (A.BIKE_REMOVED,),
+    "open_visit": (A.VISIT_OPENED,),
+    "close_visit": (A.VISIT_CLOSED,),
+    "consent_to_visit": (A.VISIT_CONSENTED,),
+    "remove_visit": (A.VISIT_REMOVED,),
+    "add_bike_history": (A.VISIT_BROUGHT,),
     "add_device": (A.UNIT_CONNECTED,),
     "remove_device": (A.UNIT_REMOVED,),
     "clear_faults": (A.UNIT_FAULTS_CLEARED,),
@@ -94,6 +101,8 @@ EXEMPT = {
     "adds a mark to the ride that is being recorded": "mark_moment",
     "is a step of a calibration, which keeps each with author and moment": "set_up_calibration "
     "capture strike_capture fit_calibration verify_calibration",
+    "is a step of a visit, which has each until it is closed": "change_visit look_at_unit "
+    "add_visit_photo remove_visit_photo",
     "concerns a simulated unit's surroundings": "put_simulation advance_simulation",
     "gives half a minute of what its key or session allows": "give_ticket",
 }
@@ -166,6 +175,7 @@ def day(workshop: Workshop) -> tuple[Watch, list[str]]:
     secrets = [PASSWORD]
     of_people(workshop, watch, secrets)
     of_bikes(workshop, watch, secrets)
+    of_visits(workshop, watch, secrets)
     of_rides(workshop, watch)
     of_the_library(workshop, watch)
     of_a_unit(workshop, watch)
@@ -233,6 +243,40 @@ def of_bikes(workshop: Workshop, watch: Watch, secrets: list[str]) -> None:
     watch("remove_bike", lambda: ask("Ben", "DELETE", f"/bikes/{empty}"))
     given = {"ride_ids": [ride]}
     watch("give_rides", lambda: ask("Ben", "POST", f"/bikes/{bike}/rides", json=given))
+
+
+def of_visits(workshop: Workshop, watch: Watch, secrets: list[str]) -> None:
+    ask, bike = workshop.ask, workshop.bikes["Rita"]
+    words = {"complaint": "rattles at night", "customer": "Ritas Tante"}
+    secrets += words.values()
+
+    def begun() -> Any:
+        return ask("Ben", "POST", f"/bikes/{bike}/visits", json=words)
+
+    mistake = watch("open_visit", begun)["id"]
+    watch("remove_visit", lambda: ask("Ben", "DELETE", f"/visits/{mistake}"))
+    visit = begun()
+    signed = {"name": "Ritas Tante", "strokes": [[0.1, 0.1, 0.5, 0.5]]}
+    signed |= {"content_sha256": visit["content_sha256"]}
+    path = f"/visits/{visit['id']}"
+    watch("consent_to_visit", lambda: ask("Ben", "POST", f"{path}/consent", json=signed))
+    watch("close_visit", lambda: ask("Ben", "POST", f"{path}/close"))
+    history = workshop.clients["Ben"].get(f"/bikes/{bike}/history").content
+    # As another server would have it: the visits of this one are known here.
+    theirs = history_of_others(history, visit["token"])
+    path = f"/bikes/{bike}/history"
+    added = watch("add_bike_history", lambda: ask("Ben", "POST", path, content=theirs))
+    assert added == {"added": 1, "known": 0}
+
+
+def history_of_others(history: bytes, token: str) -> bytes:
+    """A bike's history with another visit in it than this one."""
+    with ZipFile(io.BytesIO(history)) as archive:
+        text = archive.read("history.json").decode().replace(token, "f" * 32)
+    file = io.BytesIO()
+    with ZipFile(file, "w") as archive:
+        archive.writestr("history.json", text)
+    return file.getvalue()
 
 
 def of_rides(workshop: Workshop, watch: Watch) -> None:

@@ -14,18 +14,25 @@ from typing import Any
 
 import httpx
 import pytest
+from PIL import Image
 
 from tests.fakes.api import description
 from tests.fakes.track_files import gpx_file, gpx_track
 from tests.fakes.workshop import Workshop
 
 pytestmark = pytest.mark.slow
-NOWHERE = {"ride_id": "999999", "bike_id": "999999", "upload_id": "A" * 22}
+NOWHERE = {
+    "ride_id": "999999",
+    "bike_id": "999999",
+    "upload_id": "A" * 22,
+    "visit_id": "999999",
+    "sha256": "0" * 64,
+}
 TUS = {"tus-resumable": "1.0.0", "upload-offset": "0"}
 
 
 def with_something_of_somebodys() -> list[tuple[str, str, str]]:
-    """Operation, method and path of every route with a ride, a bike or a file in its address."""
+    """Operation, method and path of every route with something of somebody's in its address."""
     return sorted(
         (operation["operationId"], method.upper(), path)
         for path, methods in description()["paths"].items()
@@ -39,7 +46,25 @@ def mine(workshop: Workshop, who: str) -> dict[str, str]:
         "ride_id": str(workshop.rides[who]),
         "bike_id": str(workshop.bikes[who]),
         "upload_id": workshop.uploads[who],
+        **visit_of(workshop, workshop.bikes[who]),
     }
+
+
+def visit_of(workshop: Workshop, bike: int) -> dict[str, str]:
+    """The visit of a bike, begun if there is none, and its photograph."""
+    visits = workshop.ask("Ben", "GET", f"/bikes/{bike}/visits")["items"]
+    if not visits:
+        begun = workshop.ask("Ben", "POST", f"/bikes/{bike}/visits", json={"complaint": "creaks"})
+        path = f"/visits/{begun['id']}/photos?name=crank.png"
+        visits = [workshop.ask("Ben", "POST", path, content=png(str(bike)))]
+    [photo] = visits[0]["content"]["photos"]
+    return {"visit_id": str(visits[0]["id"]), "sha256": photo["sha256"]}
+
+
+def png(number: str) -> bytes:
+    picture = io.BytesIO()
+    Image.new("RGB", (8 + 8 * int(number), 8)).save(picture, "PNG")
+    return picture.getvalue()
 
 
 def asked(client: httpx.Client, method: str, path: str, names: dict[str, str]) -> tuple[int, Any]:

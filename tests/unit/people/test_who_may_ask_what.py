@@ -38,6 +38,7 @@ RIDER |= {"lint_table", "why_steady", "evaluate_calibration", "read_fis", "list_
 RIDER |= {"sign_out", "change_own_password", "give_ticket", "list_keys", "add_key", "revoke_key"}
 # Of bikes, rides and files that are theirs; a bike is handed over by its owner.
 RIDER |= {"list_bikes", "get_bike", "change_bike", "pair_bike", "leave_bike", "take_pairing"}
+RIDER |= {"list_visits", "get_visit", "get_visit_photo", "get_bike_history", "consent_to_visit"}
 RIDER |= {"list_rides", "rider_home", "export_rides", "tag_rides", "delete_rides", "sample_ride"}
 RIDER |= {"get_ride", "get_ride_series", "get_ride_track", "get_ride_figure", "export_ride"}
 RIDER |= {"energy_of_ride", "effort_of_ride", "pedalling_of_ride", "diagnosis_of_ride"}
