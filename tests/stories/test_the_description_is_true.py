@@ -26,6 +26,7 @@ pytestmark = [pytest.mark.slow, pytest.mark.large_count]
 # Enough to find what is wrong with a route at first sight; a night finds more.
 EXAMPLES = counts.of(6)
 PARTS = 8
+FILES = ("application/zip", "image/jpeg", "image/png", "image/webp")
 # Of a request to a unit that some other request added, on a port where there is none.
 ABSENT = {"not_connected", "no_answer"}
 
@@ -98,6 +99,8 @@ def asker(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Asker]:
         refused_if_wrong,
         checks.unsupported_method,
     ]
+    # Bytes as they are, like any other file.
+    schemathesis.serializer.alias([*FILES], "application/octet-stream")
     described = schemathesis.openapi.from_dict(description())
     operations = [found.ok() for found in described.get_all_operations()]
     unit = "sim?clock=virtual&scenario=none"
