@@ -8,16 +8,20 @@ const server = process.env.SPINDLE_ORIGIN ?? 'http://127.0.0.1:8750'
 // What most pages need in one file, and pages of a kind in another: dozens of tiny ones compress
 // worse than they save.
 const MOST = [
-  'api/(?!bike_server|origin_refused|pair_of_rides|people_server|upload)',
+  'api/(?!bike_server|origin_refused|pair_of_rides|people_server|upload|visit_s|workbench)',
   'context/(?!KeyList|words)',
   'device/(?!FaultMoment|fault_moment|words)|stream/(?!polled)|ui/(?!Account|Alone)|units',
   'charts/(traces/plotly\\.ts|plot_axis\\.ts|[Ss]park)',
   'config/(config_draft|drafts|elements|stored_drafts|limits|page_draft|parameter_text)',
   'config/(ratchet|trial|two_tables)',
-  'i18n',
+  'i18n/(?!channel_name)',
 ]
 // What Tune shows on request.
 const LATER = ['[Rr]escale', 'Scale', 'surface/(between|box|solid|words|Slice|Surface[MSV])']
+// What the page of a unit and that of a visit both have, and what comes after the first.
+const OF_VISITS = 'words|checks|SheetFaults'
+const AFTER_SERVICE =
+  'Guide|guide_w|OnSheet|on_sheet|Re(st|vis)|restored|Since|Job|Parts|Photos|Visit|Cons|Sig|unit_of'
 const ON_REQUEST = 'logbook/(GiveToBike|ManyRides|Standing)'
 const OTHER_RIDES = ['ride/', 'insight/', 'comparison/', 'replay/', ON_REQUEST]
 const REVIEW = ['ReviewDialog', 'review_', 'words', 'TokenSteps', 'UnlockPanel', 'Write', 'write_']
@@ -38,7 +42,9 @@ const GROUPS = [
   chunk('ride', 'features/rides/ride/(?!from_file/|doubts/)'),
   chunk('comparison', 'features/rides/comparison/'),
   chunk('insight', 'features/rides/insight'),
-  chunk('service', 'features/service/(?!Guide|OnSheet|on_sheet|Restore|restored)'),
+  chunk('visits', 'shared/api/visit_s'),
+  chunk('checks', `features/service/(${OF_VISITS})`),
+  chunk('service', `features/service/(?!${OF_VISITS}|${AFTER_SERVICE})`),
   chunk('register', 'shared/api/(bike_server|people_server)|features/bikes/pairing/code'),
   chunk('bikes', 'features/bikes/(?!pairing)'),
   chunk('settings', 'features/(settings|people/(People|Keys))'),

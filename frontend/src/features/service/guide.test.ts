@@ -4,8 +4,15 @@
 import { FAULTS, CHANNELS } from '$generated/registry'
 import { expect, it } from 'vitest'
 import { CAUSES, causesOf, PROOFS, type Cause } from './guide'
-import en from '$messages/en/service.json'
-import zh from '$messages/zh/service.json'
+import names_en from '$messages/en/service.json'
+import steps_en from '$messages/en/guide.json'
+import names_zh from '$messages/zh/service.json'
+import steps_zh from '$messages/zh/guide.json'
+
+const [en, zh] = [
+  { ...names_en, ...steps_en },
+  { ...names_zh, ...steps_zh },
+]
 
 it('has steps for every fault of the registry, each cause once', () => {
   for (const fault of Object.keys(FAULTS)) {

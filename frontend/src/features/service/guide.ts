@@ -4,7 +4,7 @@ import { RESTING_KMH, type FAULTS } from '$generated/registry'
 import en from '$messages/en/service.json'
 
 type FaultName = keyof typeof FAULTS
-type CauseWord<Key> = Key extends `${infer Cause}.check` ? Cause : never
+type CauseWord<Key> = Key extends `${infer Cause}.is` ? Cause : never
 export type Cause = CauseWord<keyof typeof en>
 
 /** A live value that bears on a cause. points: whether it speaks for the cause, null where it says

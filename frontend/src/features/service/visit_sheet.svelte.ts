@@ -21,7 +21,6 @@ export class VisitSheet {
   visit = $state.raw<Visit | null>(null)
   fields = $state<SheetFields>(structuredClone(EMPTY))
   problem = $state.raw<Refusal | null>(null)
-  loaded = $state(false)
   private base: SheetFields = structuredClone(EMPTY)
   private timer: ReturnType<typeof setTimeout> | undefined
   private saving: Promise<void> | null = null
@@ -64,7 +63,6 @@ export class VisitSheet {
       this.base.technician = this.technician
       this.fields.technician ||= this.technician
     }
-    this.loaded = true
     if (Object.keys(stored).length > 0) this.edited()
   }
 
