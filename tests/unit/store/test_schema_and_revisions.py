@@ -25,7 +25,7 @@ import backend.store
 from backend.core.revision import Revision
 from backend.errors import StoreError
 from backend.store import Store, open_store
-from backend.store.sql.database import HEAD_REVISION
+from backend.store.sql.database import HEAD_REVISION, OLDER_REVISIONS
 from backend.store.sql.tables import account, metadata
 from backend.tuning.records import RevisionStore
 
@@ -47,7 +47,11 @@ def test_migrations_and_tables_agree_both_ways(tmp_path: Path) -> None:
 
     assert left == {"alembic_version"}
     assert differences == []
-    assert ScriptDirectory.from_config(config).get_current_head() == HEAD_REVISION
+    scripts = ScriptDirectory.from_config(config)
+    assert scripts.get_current_head() == HEAD_REVISION
+    # Every earlier schema is opened, the newest of them too.
+    earlier = {one.revision for one in scripts.walk_revisions()} - {HEAD_REVISION}
+    assert earlier | {None} == set(OLDER_REVISIONS)
 
 
 def test_names_that_differ_in_width_alone_are_told_apart_when_they_become_one(
