@@ -53,7 +53,8 @@ def test_a_configuration_of_the_page_works(
         with real_proxy(kind, snippet, site, at, folder) as port:
             origin = f"http://{site}:{port}"
             headers = {"host": f"{site}:{port}", "origin": origin}
-            with httpx.Client(base_url=f"http://127.0.0.1:{port}", headers=headers) as client:
+            url = f"http://127.0.0.1:{port}"
+            with httpx.Client(base_url=url, headers=headers, timeout=30.0) as client:
                 the_page_comes_whole(client, f"{path}/")
                 the_page_comes_whole(client, f"{path}/rides/7")
                 signed_in = client.post(
