@@ -42,7 +42,9 @@ def test_people_programs_and_the_command_use_it(tmp_path: Path) -> None:
         people = server.services.people
         assert people is not None
         people.accounts.add("Anna", "admin", PASSWORD)
-        browser = httpx.Client(base_url=server.url, headers={"origin": server.url}, verify=trusting)
+        browser = httpx.Client(
+            base_url=server.url, headers={"origin": server.url}, verify=trusting, timeout=30.0
+        )
 
         signed_in = browser.post("/api/v1/sign-in", json={"name": "Anna", "password": PASSWORD})
 

@@ -56,7 +56,7 @@ def test_a_workshop_opens_its_server_to_the_network(tmp_path: Path) -> None:
     # No second hand in the folder of a running server.
     assert spindle(None, "people", "list", *folder).returncode == 1
 
-    browser = httpx.Client(base_url=url, headers={"origin": url})
+    browser = httpx.Client(base_url=url, headers={"origin": url}, timeout=30.0)
     browser.post("/api/v1/sign-in", json={"name": "anna", "password": PASSWORD})
     keys = {
         name: browser.post("/api/v1/keys", json={"name": name, "scopes": scopes}).json()["secret"]
@@ -89,7 +89,7 @@ def test_a_workshop_opens_its_server_to_the_network(tmp_path: Path) -> None:
     said = server.output()
     assert not [secret for secret in (*keys.values(), PASSWORD) if secret in said]
     with ServerHere(data, **REACHED) as again:
-        moved = httpx.Client(base_url=again.url, cookies=browser.cookies)
+        moved = httpx.Client(base_url=again.url, cookies=browser.cookies, timeout=30.0)
         assert moved.get("/api/v1/session").json()["signed_in"]["person"]["name"] == "Anna"
         assert spindle(again, "device", "list", SPINDLE_KEY=keys["shell"]).returncode == 0
 
@@ -147,7 +147,7 @@ def test_a_live_picture_ends_with_the_right_to_see_it(tmp_path: Path, how: str) 
         assert people is not None
         people.accounts.add("admin", "admin", PASSWORD)
         dealer = people.accounts.add("dealer", "dealer", PASSWORD)
-        browser = httpx.Client(base_url=server.url, headers={"origin": server.url})
+        browser = httpx.Client(base_url=server.url, headers={"origin": server.url}, timeout=30.0)
         browser.post("/api/v1/sign-in", json={"name": "dealer", "password": PASSWORD})
         devices = eventually(lambda: browser.get("/api/v1/devices").json()["items"], bool)
         address = f"{server.url.replace('http', 'ws')}/api/v1/devices/{devices[0]['id']}/live"

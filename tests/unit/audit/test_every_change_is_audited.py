@@ -191,7 +191,9 @@ def of_people(workshop: Workshop, watch: Watch, secrets: list[str]) -> None:
     nora = watch("add_person", lambda: ask("Anna", "POST", "/people", json=new), "Anna")["id"]
     change = {"role": "rider", "password": second}
     watch("change_person", lambda: ask("Anna", "PATCH", f"/people/{nora}", json=change), "Anna")
-    with httpx.Client(base_url=f"{url}/api/v1", headers={"origin": url}, trust_env=False) as own:
+    with httpx.Client(
+        base_url=f"{url}/api/v1", headers={"origin": url}, trust_env=False, timeout=30.0
+    ) as own:
 
         def done(method: str, path: str, **body: str) -> None:
             answer = own.request(method, path, json=body or None)
@@ -214,7 +216,9 @@ def of_people(workshop: Workshop, watch: Watch, secrets: list[str]) -> None:
 
 
 def by_key(workshop: Workshop, secret: str, path: str, **body: str) -> httpx.Response:
-    with httpx.Client(base_url=f"{workshop.server.url}/api/v1", trust_env=False) as program:
+    with httpx.Client(
+        base_url=f"{workshop.server.url}/api/v1", trust_env=False, timeout=30.0
+    ) as program:
         headers = {"authorization": f"Bearer {secret}"}
         return program.post(path, json=body, headers=headers)
 
@@ -234,7 +238,9 @@ def of_bikes(workshop: Workshop, watch: Watch, secrets: list[str]) -> None:
     other = offer()
     account = {"name": "Zoe", "password": "Zoes einziges Wort"}
     secrets.append("Zoes einziges Wort")
-    with httpx.Client(base_url=f"{workshop.server.url}/api/v1", trust_env=False) as stranger:
+    with httpx.Client(
+        base_url=f"{workshop.server.url}/api/v1", trust_env=False, timeout=30.0
+    ) as stranger:
         path = f"/pairings/{other}/account"
         watch("join_by_pairing", lambda: stranger.post(path, json=account), "Zoe")
     track = gpx_file(gpx_track((9000, 9100)))

@@ -28,7 +28,9 @@ def logger(workshop: Workshop, who: str, bike: int | None = None) -> tuple[int, 
     body = {"name": "logger", "scopes": ["upload_files"], "bike_id": bike}
     made = workshop.ask(who, "POST", "/keys", json=body)
     url = f"{workshop.server.url}/api/v1"
-    return made["key"]["id"], httpx.Client(base_url=url, headers=bearer(made["secret"]))
+    return made["key"]["id"], httpx.Client(
+        base_url=url, headers=bearer(made["secret"]), timeout=30.0
+    )
 
 
 def sent(client: httpx.Client, minute: int) -> dict[str, Any]:

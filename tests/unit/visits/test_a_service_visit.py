@@ -305,7 +305,9 @@ def test_an_owner_consents_with_their_own_account_and_not_by_a_key(workshop: Wor
     secret = workshop.ask("Rita", "POST", "/keys", json=scopes)["secret"]
     sha256 = seen(workshop, visit, "Rita")["content_sha256"]
 
-    with httpx.Client(base_url=f"{workshop.server.url}/api/v1", trust_env=False) as program:
+    with httpx.Client(
+        base_url=f"{workshop.server.url}/api/v1", trust_env=False, timeout=30.0
+    ) as program:
         headers = {"authorization": f"Bearer {secret}"}
         body = {"content_sha256": sha256}
         by_key = program.post(path, json=body, headers=headers)
