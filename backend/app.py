@@ -20,6 +20,7 @@ from backend.imports import api as uploads
 from backend.imports import logs_api as logs
 from backend.imports import tables_api as tables
 from backend.people.api import router as people_router
+from backend.people.passkeys import api as passkeys
 from backend.people.service import PeopleService
 from backend.rides import api as rides
 from backend.rides.comparison import api as comparison
@@ -43,9 +44,10 @@ from backend.web.permissions import Anyone, Own
 P = Permission
 OPERATIONS: dict[Permission | Anyone, str] = {
     Anyone.STRANGER: "get_not_built get_healthz get_readyz get_session sign_in make_first_person "
-    "get_pairing join_by_pairing",
+    "get_pairing join_by_pairing begin_passkey_sign_in sign_in_with_passkey",
     Anyone.SIGNED_IN: "sign_out change_own_password give_ticket list_keys add_key revoke_key "
-    "take_pairing get_addresses get_description get_docs",
+    "take_pairing get_addresses get_description get_docs list_passkeys begin_passkey add_passkey "
+    "remove_passkey",
     P.COMPUTE: "compute_surface compute_points compute_torque_surface compute_mode_curves "
     "lint_table why_steady evaluate_calibration read_fis list_scenarios",
     P.SEE_REGISTER: "list_bikes get_bike list_visits get_visit get_visit_photo get_bike_history",
@@ -106,6 +108,8 @@ STRANGERS = frozenset(
         ("GET", "/readyz"),
         ("GET", "/api/v1/session"),
         ("POST", "/api/v1/sign-in"),
+        ("POST", "/api/v1/sign-in/passkey"),
+        ("POST", "/api/v1/sign-in/passkey/challenges"),
         ("POST", "/api/v1/first-person"),
         ("GET", "/api/v1/pairings/{code}"),
         ("POST", "/api/v1/pairings/{code}/account"),
@@ -118,6 +122,7 @@ OF_RIDES = (logbook, comparison, insight, rides, proposals)
 ROUTERS = [
     server.router,
     people_router,
+    passkeys.router,
     audit.router,
     bikes.router,
     workbench.router,

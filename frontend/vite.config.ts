@@ -8,7 +8,7 @@ const server = process.env.SPINDLE_ORIGIN ?? 'http://127.0.0.1:8750'
 // What most pages need in one file, and pages of a kind in another: dozens of tiny ones compress
 // worse than they save.
 const MOST = [
-  'api/(?!bike_server|origin_refused|pair_of_rides|people_server|upload|visit_s|workbench)',
+  'api/(?!bike_s|origin_r|pair_of|passkey_s|people_s|upload|visit_s|workbench)',
   'context/(?!KeyList|words)',
   'device/(?!FaultMoment|fault_moment|words)|stream/(?!polled)|ui/(?!Account|Alone)|units',
   'charts/(traces/plotly\\.ts|plot_axis\\.ts|[Ss]park)',
@@ -47,7 +47,8 @@ const GROUPS = [
   chunk('service', `features/service/(?!${OF_VISITS}|${AFTER_SERVICE})`),
   chunk('register', 'shared/api/(bike_server|people_server)|features/bikes/pairing/code'),
   chunk('bikes', 'features/bikes/(?!pairing)'),
-  chunk('settings', 'features/(settings|people/(People|Keys))'),
+  chunk('passkeys', 'shared/api/passkey_server|features/people/(authenticator|passkey_words)'),
+  chunk('settings', 'features/(settings|people/(People|Keys|Passkeys))'),
   chunk('review', `shared/(limit_proof|config/(${REVIEW.join('|')}))`),
   chunk('config', 'shared/(config/(?!DraftNotes|draft_words|words|ParameterForm)|lint)'),
   chunk('tune', `features/tuning/table/(?!${LATER.join('|')})`),

@@ -34,6 +34,8 @@ class Action(StrEnum):
     ACCOUNT_FIRST_ADDED = "account_first_added"
     ACCOUNT_CHANGED = "account_changed"
     ACCOUNT_PASSWORD_SET = "account_password_set"
+    ACCOUNT_PASSKEY_ADDED = "account_passkey_added"
+    ACCOUNT_PASSKEY_REMOVED = "account_passkey_removed"
     ACCOUNT_REMOVED = "account_removed"
     ACCOUNT_SIGNED_IN = "account_signed_in"
     ACCOUNT_SIGNED_OUT_EVERYWHERE = "account_signed_out_everywhere"

@@ -14,6 +14,7 @@ from backend.people.authority import (
     require_within,
     whose_keys,
 )
+from backend.people.passkeys.relying_party import RelyingParty, relying_party
 from backend.people.service import PeopleService
 from backend.people.tokens import VALID_S
 from backend.people.types import (
@@ -61,6 +62,12 @@ def asking(request: Request) -> Caller:
     return caller
 
 
+def relying_party_of(request: Request) -> RelyingParty | None:
+    """As whom an authenticator knows this server, as it is called; None where it cannot."""
+    encrypted = session_cookie.is_encrypted(request)
+    return relying_party(request.headers.get("host", ""), encrypted)
+
+
 PeopleOf = Annotated[PeopleService, Depends(people_of)]
 Asking = Annotated[Caller, Depends(asking)]
 
@@ -86,6 +93,7 @@ def get_session(request: Request) -> Session:
         sign_in=people is not None,
         needs_first=people is not None and not people.accounts.has_admin(),
         signed_in=None if caller is None else SignedIn(caller.person, sorted(caller.permissions)),
+        passkeys=people is not None and relying_party_of(request) is not None,
     )
 
 
@@ -185,7 +193,8 @@ def add_person(body: PersonIn, people: PeopleOf, caller: InBrowser) -> Person:
     responses=refusals(401, 403, 404, 409, 429),
 )
 def change_person(person_id: Id, body: PersonChange, people: PeopleOf, caller: Asking) -> Person:
-    """Another name, role or password, or disabled; with the last two every browser is signed out.
+    """Another name, role or password, or disabled; with the last two every browser is signed out,
+    with another password the passkeys are removed.
 
     What was done under the name before keeps that name.
     """
@@ -203,7 +212,7 @@ def change_person(person_id: Id, body: PersonChange, people: PeopleOf, caller: A
     responses=refusals(401, 403, 404, 409),
 )
 def remove_person(person_id: Id, people: PeopleOf, caller: InBrowser) -> None:
-    """Removes an account with its sessions and keys. What it did stays under its name."""
+    """Removes an account with its sessions, passkeys and keys. What it did stays under its name."""
     require_within(caller, people.accounts.get(person_id).role)
     people.accounts.remove(person_id)
 

@@ -99,11 +99,18 @@ class AccountStore:
         """One account. Raises NotFound."""
         return self._database.read(lambda connection: account_of(connection, person_id))
 
-    def change(self, person_id: int, changes: Mapping[str, Any], sign_out: bool) -> Person:
+    def change(
+        self,
+        person_id: int,
+        changes: Mapping[str, Any],
+        sign_out: bool,
+        then: WithPerson[None] = lambda connection, person: None,
+    ) -> Person:
         """Give an account another name, role or password (its hash), or disable or enable it.
 
-        sign_out: every browser it signed in with. Raises NotFound; Conflict `name_taken`, and
-        `last_admin` where nobody would be left who may manage people; StoreError.
+        sign_out: every browser it signed in with. then: what is done with it in the same
+        transaction. Raises NotFound; Conflict `name_taken`, and `last_admin` where nobody would be
+        left who may manage people; StoreError.
         """
 
         def work(connection: Connection) -> Person:
@@ -127,12 +134,13 @@ class AccountStore:
                 audit.append(connection, entry)
             if "password" in values:
                 audit.append(connection, of_account(Action.ACCOUNT_PASSWORD_SET, after))
+            then(connection, after)
             return after
 
         return self._database.write(work)
 
     def remove(self, person_id: int) -> None:
-        """Remove an account, its sessions and keys; its bikes and rides are nobody's then.
+        """Remove an account with its ways in; its bikes and rides are nobody's then.
 
         Raises NotFound, Conflict `last_admin`.
         """
@@ -143,7 +151,7 @@ class AccountStore:
             keys = select(t.api_key.c.id).where(t.api_key.c.account_id == person_id)
             by_key = update(t.upload).where(t.upload.c.key_id.in_(keys))
             connection.execute(by_key.values(key_id=None))
-            for table in (t.session, t.api_key):
+            for table in (t.session, t.passkey, t.api_key):
                 connection.execute(delete(table).where(table.c.account_id == person_id))
             owner = t.bike_owner.c.account_id == person_id
             still = owner & t.bike_owner.c.to_us.is_(None)
@@ -243,32 +251,10 @@ class SessionStore:
         password: its hash. False, and nothing is opened, where the account was disabled or given
         another password since. Raises StoreError.
         """
-        values = {
-            "account_id": person_id,
-            "token_sha256": token_sha256,
-            "created_us": now_us,
-            "used_us": now_us,
-        }
-        mine = t.session.c.account_id == person_id
-        newest = (
-            select(t.session.c.id).where(mine).order_by(t.session.c.id.desc()).limit(SESSIONS_MAX)
-        )
         same = (t.account.c.id == person_id) & (t.account.c.password == password)
-
-        def work(connection: Connection) -> bool:
-            still = update(t.account).where(same & t.account.c.enabled)
-            row = connection.execute(still.values(signed_in_us=now_us).returning(t.account)).first()
-            if row is None:
-                return False
-            connection.execute(delete(t.session).where(over(now_us)))
-            connection.execute(insert(t.session).values(values))
-            connection.execute(delete(t.session).where(mine & t.session.c.id.not_in(newest)))
-            person = person_of(row)
-            entry = of_account(Action.ACCOUNT_SIGNED_IN, person)
-            audit.append(connection, entry, actor_of_person(person))
-            return True
-
-        return self._database.write(work)
+        return self._database.write(
+            lambda connection: begun(connection, same, token_sha256, now_us) is not None
+        )
 
     def of_token(self, token_sha256: str, now_us: int) -> tuple[int, Person] | None:
         """The session's number and whose it is; None where it is over or the account disabled."""
@@ -304,6 +290,30 @@ class SessionStore:
             audit.append(connection, entry)
 
         self._database.write(work)
+
+
+def begun(
+    connection: Connection,
+    which: ColumnElement[bool],
+    token_sha256: str,
+    now_us: int,
+    how: Members | None = None,
+) -> Person | None:
+    """Whose session began, of an enabled account; None where there is none. how: for the audit."""
+    still = update(t.account).where(which & t.account.c.enabled)
+    row = connection.execute(still.values(signed_in_us=now_us).returning(t.account)).first()
+    if row is None:
+        return None
+    values = {"account_id": row.id, "created_us": now_us, "used_us": now_us}
+    connection.execute(delete(t.session).where(over(now_us)))
+    connection.execute(insert(t.session).values(values | {"token_sha256": token_sha256}))
+    mine = t.session.c.account_id == row.id
+    newest = select(t.session.c.id).where(mine).order_by(t.session.c.id.desc()).limit(SESSIONS_MAX)
+    connection.execute(delete(t.session).where(mine & t.session.c.id.not_in(newest)))
+    person = person_of(row)
+    entry = of_account(Action.ACCOUNT_SIGNED_IN, person, after=how)
+    audit.append(connection, entry, actor_of_person(person))
+    return person
 
 
 def sessions(now_us: int) -> Select[Any]:

@@ -6,18 +6,20 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from datetime import datetime
 from typing import Any
 
-from backend.core.author import tidy_author
-from backend.core.person import ROLES, Caller, Permission, Person, RoleName, folded
+from backend.core.person import ROLES, Caller, Permission, Person, RoleName
 from backend.errors import NotAllowed
+from backend.people.names import good_name
+from backend.people.passkeys.records import PasskeyStore, end_passkeys
+from backend.people.passkeys.service import Passkeys
 from backend.people.passwords import Passwords, field_refusal, require_good
 from backend.people.records import AccountStore, KeyStore, Made, SessionStore, WithPerson
 from backend.people.sign_in import SignIn
 from backend.people.tokens import KEY_FORM, Tickets, is_secret_of, new_key, new_token, token_sha256
-from backend.people.types import NAME_MAX, ApiKey, PersonChange
+from backend.people.types import ApiKey, PersonChange
 from backend.store.sql.database import Database
 
 USED = "This link was used, or is of an earlier start: the server prints a new one when it starts."
@@ -55,12 +57,13 @@ class Accounts:
         return self._accounts.get(person_id)
 
     def remove(self, person_id: int) -> None:
-        """An account, its sessions and keys. Raises NotFound, Conflict `last_admin`, StoreError."""
+        """An account with all it has. Raises NotFound, Conflict `last_admin`, StoreError."""
         self._accounts.remove(person_id)
 
     def change(self, person_id: int, change: PersonChange) -> Person:
         """Another name, role or password, disabled or enabled; whoever it is signs in anew where
-        the password or the right to be here went.
+        the password or the right to be here went. With another password the passkeys go: whoever
+        had the account may have left one.
 
         Raises NotFound, InvalidRequest, Conflict `name_taken` and `last_admin`, StoreError.
         """
@@ -77,7 +80,9 @@ class Accounts:
             require_good(password, name)
             changes["password"] = self._passwords.hashed(password)
         sign_out = change.password is not None or change.enabled is False
-        return self._accounts.change(person_id, changes, sign_out)
+        if change.password is None:
+            return self._accounts.change(person_id, changes, sign_out)
+        return self._accounts.change(person_id, changes, sign_out, end_passkeys)
 
     def has_admin(self) -> bool:
         """Whether anybody may manage people. Raises StoreError."""
@@ -178,26 +183,19 @@ def caller_by(key: ApiKey, person: Person) -> Caller:
     return Caller(person, permissions, key_id=key.id, key_name=key.name, bike_id=key.bike_id)
 
 
-def good_name(name: str) -> str:
-    """A name as it is kept. Raises InvalidRequest where there is none or it is too long."""
-    tidy = tidy_author(name)
-    # One character of Arabic can be eighteen when names are compared.
-    if not 0 < len(tidy) <= NAME_MAX or len(folded(tidy)) > 2 * NAME_MAX:
-        raise field_refusal("name", "not_a_name", f"A name has 1 to {NAME_MAX} characters.")
-    return tidy
-
-
 class PeopleService:
     """All that is asked of people and their keys, from any thread.
 
-    sign_in: browsers. keys: programs. tickets: sockets of programs.
+    sign_in: browsers. passkeys: those that sign in without a password. keys: programs. tickets:
+    sockets of programs. now_s: a clock that only goes forward.
     """
 
-    def __init__(self, database: Database) -> None:
+    def __init__(self, database: Database, now_s: Callable[[], float] = time.monotonic) -> None:
         passwords = Passwords()
         accounts = AccountStore(database)
         self.accounts = Accounts(accounts, passwords)
-        self.sign_in = SignIn(accounts, SessionStore(database), passwords)
+        self.sign_in = SignIn(accounts, SessionStore(database), passwords, now_s)
+        self.passkeys = Passkeys(PasskeyStore(database), self.sign_in, now_s)
         self.keys = Keys(KeyStore(database))
         self.tickets = Tickets()
 

@@ -6,7 +6,8 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 
 from backend.core.person import Caller, Person, folded
@@ -70,21 +71,41 @@ class SignIn:
 
         Raises InvalidRequest, TooManyTries, StoreError.
         """
-        name = caller.person.name
-        require_good(new, name, "new")
-        self._begin(folded(name), address)
-        try:
-            self._verified(name, old)
-        except NotSignedIn:
-            # The user is known: it is one field that is wrong.
-            raise field_refusal("old", "wrong_password", "This is not your password.") from None
-        self._succeed(folded(name), address)
+        require_good(new, caller.person.name, "new")
+        self.require_own_password(caller, old, address, "old")
         hashed = self._passwords.hashed(new)
         self._accounts.change(caller.person.id, {"password": hashed}, sign_out=True)
         token = new_token()
         if not self._sessions.open(caller.person.id, hashed, token_sha256(token), self._now_us()):
             raise NotSignedIn(WRONG, "wrong_password")
         return token
+
+    def require_own_password(
+        self, caller: Caller, password: str, address: str, field: str = "password"
+    ) -> None:
+        """Raises InvalidRequest `wrong_password` for another than the caller's, TooManyTries,
+        StoreError. field: what the request calls it.
+        """
+        name = caller.person.name
+        self._begin(folded(name), address)
+        try:
+            self._verified(name, password)
+        except NotSignedIn:
+            # The user is known: it is one field that is wrong.
+            raise field_refusal(field, "wrong_password", "This is not your password.") from None
+        self._succeed(folded(name), address)
+
+    @contextmanager
+    def counted(self, address: str) -> Iterator[None]:
+        """A try to sign in without a name; what raises in it counts as a wrong one.
+
+        Raises TooManyTries where it comes too soon.
+        """
+        with self._turn:
+            begin(self._now_s(), "passkeys", (self._by_address, address))
+        yield
+        with self._turn:
+            self._by_address.take_back(address)
 
     def of_token(self, token: str) -> Caller | None:
         """Who has a session's token; None where it is over or was never. Raises StoreError."""

@@ -1,6 +1,7 @@
-"""Random secrets, their hashes, and tickets: with one a program without a cookie opens a WebSocket.
+"""Random secrets, their hashes, and what is kept for one until it is taken.
 
-A secret is long enough that a plain hash will do.
+A secret is long enough that a plain hash will do. What is kept is in this process's memory: with
+another server process it opens nothing.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import time
 from collections import OrderedDict
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Generic, TypeVar
 
 from backend.core.person import Caller
 
@@ -42,33 +44,46 @@ def new_key() -> tuple[str, str, str]:
 
 
 VALID_S = 30.0
-# Bounds the memory of tickets that nobody uses; the oldest go first.
-TICKETS_MAX = 10_000
+# Bounds the memory of secrets that nobody uses; the oldest go first.
+SECRETS_MAX = 10_000
+Held = TypeVar("Held")
 
 
-class Tickets:
-    """Tickets in memory, from any thread. now_s: a clock that only goes forward."""
+class OneUse(Generic[Held]):
+    """What is kept in memory for new secrets, from any thread.
 
-    def __init__(self, now_s: Callable[[], float] = time.monotonic) -> None:
+    valid_s: how long. now_s: a clock that only goes forward.
+    """
+
+    def __init__(self, valid_s: float, now_s: Callable[[], float] = time.monotonic) -> None:
+        self.valid_s = valid_s
         self._now_s = now_s
         self._turn = threading.Lock()
-        self._open: OrderedDict[str, tuple[Caller, float]] = OrderedDict()
+        self._open: OrderedDict[str, tuple[Held, float]] = OrderedDict()
 
-    def give(self, caller: Caller) -> str:
-        """A ticket that stands for a caller, once and soon."""
-        ticket = new_token()
+    def give(self, held: Held) -> str:
+        """A secret that something is kept for, once and soon."""
+        secret = new_token()
         with self._turn:
-            # A ticket is shown on purpose: no browser sends it by itself.
-            self._open[token_sha256(ticket)] = (
-                replace(caller, by_cookie=False),
-                self._now_s() + VALID_S,
-            )
-            while len(self._open) > TICKETS_MAX:
+            self._open[token_sha256(secret)] = (held, self._now_s() + self.valid_s)
+            while len(self._open) > SECRETS_MAX:
                 self._open.popitem(last=False)
-        return ticket
+        return secret
 
-    def take(self, ticket: str) -> Caller | None:
-        """Whose it is; from now on it is nobody's. None where it was used or is over."""
+    def take(self, secret: str) -> Held | None:
+        """What was kept for it; from now on nothing is. None where it was used or is over."""
         with self._turn:
-            caller, until_s = self._open.pop(token_sha256(ticket), (None, 0.0))
-            return caller if self._now_s() < until_s else None
+            held, until_s = self._open.pop(token_sha256(secret), (None, 0.0))
+            return held if self._now_s() < until_s else None
+
+
+class Tickets(OneUse[Caller]):
+    """Tickets: with one a program without a cookie opens a WebSocket."""
+
+    def __init__(self, now_s: Callable[[], float] = time.monotonic) -> None:
+        super().__init__(VALID_S, now_s)
+
+    def give(self, held: Caller) -> str:
+        """A ticket that stands for a caller, once and soon."""
+        # A ticket is shown on purpose: no browser sends it by itself.
+        return super().give(replace(held, by_cookie=False))

@@ -45,6 +45,8 @@ class Session:
     needs_first: bool
     """No administrator yet: the server printed a link."""
     signed_in: SignedIn | None
+    passkeys: bool
+    """Whether people can sign in with a passkey at this address: it has https and a name."""
 
 
 class SignInRequest(RequestBody):

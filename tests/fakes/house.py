@@ -3,7 +3,8 @@ service."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -42,10 +43,10 @@ class House:
 
 
 @contextmanager
-def open_house(folder: Path) -> Iterator[House]:
+def open_house(folder: Path, now_s: Callable[[], float] = time.monotonic) -> Iterator[House]:
     """The house on an empty folder, with one account of every role, named after it."""
     with open_store(f"sqlite:///{folder}/spindle.db", (folder / "o").as_uri()) as store:
-        people = PeopleService(store.database)
+        people = PeopleService(store.database, now_s)
         app = build_api(
             WebSettings("test", AllowedHosts(frozenset({"workshop"})), guarded=True),
             cast(Services, None),

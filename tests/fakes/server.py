@@ -61,11 +61,13 @@ def eventually(
         time.sleep(LOOK_EVERY_S)
 
 
-def api_client(url: str, ca: Path | None = None) -> httpx.Client:
-    """Asks the API of the server at `url`. ca: the certificate it shows, where it speaks TLS."""
+def api_client(url: str, ca: Path | None = None, origin: str | None = None) -> httpx.Client:
+    """Asks the API of the server at `url`. ca: the certificate it shows, where it speaks TLS.
+    origin: the site whose page asks, as a browser names it."""
     return httpx.Client(
         verify=True if ca is None else ssl.create_default_context(cafile=ca),
         base_url=f"{url}/api/v1",
+        headers=None if origin is None else {"origin": origin},
         timeout=30.0,
         trust_env=False,
         # The server closes idle connections after 5 s; one in use at that moment is reset.

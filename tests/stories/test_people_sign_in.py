@@ -41,7 +41,8 @@ def test_a_workshop_opens_its_server_to_the_network(tmp_path: Path) -> None:
     folder = ("--data", str(data))
     # Before: on this machine alone, nobody signs in, and who changes something says so.
     with ServerHere(data, SPINDLE_AUTHOR="王工") as alone:
-        assert alone.get("/session") == {"sign_in": False, "needs_first": False, "signed_in": None}
+        nobody = {"sign_in": False, "needs_first": False, "signed_in": None, "passkeys": False}
+        assert alone.get("/session") == nobody
         before = alone.client.post("/library", json=preset("before"))
     assert "set-cookie" not in before.headers
     assert (before.json()["author"], before.json()["author_proof"]) == ("王工", "stated")

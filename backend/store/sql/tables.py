@@ -462,3 +462,20 @@ api_key = Table(
     # The one bike whose files it sends.
     Column("bike_id", KEY, index=True),
 )
+
+# With what a browser signs in instead of a password. credential_id: base64url.
+# public_key: COSE. sign_count: as the authenticator last counted; 0 for one that does not. rp_id:
+# the server's name that it is for.
+passkey = Table(
+    "passkey",
+    metadata,
+    key(),
+    Column("account_id", KEY, ForeignKey("account.id"), nullable=False, index=True),
+    Column("credential_id", Text, nullable=False, unique=True),
+    Column("public_key", LargeBinary, nullable=False),
+    Column("sign_count", BigInteger, nullable=False),
+    Column("rp_id", Text, nullable=False),
+    Column("name", String(64), nullable=False),
+    Column("created_us", BigInteger, nullable=False),
+    Column("used_us", BigInteger),
+)

@@ -222,14 +222,15 @@ export interface paths {
         post?: never;
         /**
          * Remove Person
-         * @description Removes an account with its sessions and keys. What it did stays under its name.
+         * @description Removes an account with its sessions, passkeys and keys. What it did stays under its name.
          */
         delete: operations["remove_person"];
         options?: never;
         head?: never;
         /**
          * Change Person
-         * @description Another name, role or password, or disabled; with the last two every browser is signed out.
+         * @description Another name, role or password, or disabled; with the last two every browser is signed out,
+         *     with another password the passkeys are removed.
          *
          *     What was done under the name before keeps that name.
          */
@@ -278,6 +279,110 @@ export interface paths {
          * @description Ends a key, one's own or, by who manages people, anybody's; it stays in the list.
          */
         delete: operations["revoke_key"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/session/passkeys": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Passkeys
+         * @description One's own, the oldest first, of every name of this server.
+         */
+        get: operations["list_passkeys"];
+        put?: never;
+        /**
+         * Add Passkey
+         * @description Takes what the authenticator made: from now on it signs in, at this name alone.
+         */
+        post: operations["add_passkey"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/session/passkeys/challenges": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Begin Passkey
+         * @description What `navigator.credentials.create` makes a passkey of, for this browser and five minutes.
+         */
+        post: operations["begin_passkey"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/session/passkeys/{passkey_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Remove Passkey
+         * @description Ends one of one's own. Browsers that signed in with it stay signed in.
+         */
+        delete: operations["remove_passkey"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/sign-in/passkey/challenges": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Begin Passkey Sign In
+         * @description What `navigator.credentials.get` signs, within five minutes.
+         */
+        post: operations["begin_passkey_sign_in"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/sign-in/passkey": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Sign In With Passkey
+         * @description Begins a session as a password does.
+         */
+        post: operations["sign_in_with_passkey"];
+        delete?: never;
         options?: never;
         head?: never;
         patch?: never;
@@ -2755,7 +2860,7 @@ export interface components {
          * @description What was done. It begins with what it was done to.
          * @enum {string}
          */
-        Action: "account_added" | "account_first_added" | "account_changed" | "account_password_set" | "account_removed" | "account_signed_in" | "account_signed_out_everywhere" | "key_added" | "key_revoked" | "bike_added" | "bike_changed" | "bike_unit_changed" | "bike_removed" | "bike_offered" | "bike_taken" | "bike_left" | "bike_rides_given" | "unit_first_seen" | "unit_connected" | "unit_named" | "unit_removed" | "unit_faults_cleared" | "unit_log_erased" | "unit_values_tried" | "unit_values_ended" | "configuration_found" | "configuration_written" | "configuration_tried" | "configuration_confirmed" | "configuration_rolled_back" | "calibration_opened" | "calibration_written" | "calibration_restored" | "calibration_closed" | "visit_opened" | "visit_closed" | "visit_consented" | "visit_removed" | "visit_brought" | "ride_changed" | "ride_deleted" | "upload_deleted" | "table_answered" | "table_forgotten" | "library_item_added" | "library_item_changed" | "library_item_removed" | "store_backed_up" | "store_rebuilt";
+        Action: "account_added" | "account_first_added" | "account_changed" | "account_password_set" | "account_passkey_added" | "account_passkey_removed" | "account_removed" | "account_signed_in" | "account_signed_out_everywhere" | "key_added" | "key_revoked" | "bike_added" | "bike_changed" | "bike_unit_changed" | "bike_removed" | "bike_offered" | "bike_taken" | "bike_left" | "bike_rides_given" | "unit_first_seen" | "unit_connected" | "unit_named" | "unit_removed" | "unit_faults_cleared" | "unit_log_erased" | "unit_values_tried" | "unit_values_ended" | "configuration_found" | "configuration_written" | "configuration_tried" | "configuration_confirmed" | "configuration_rolled_back" | "calibration_opened" | "calibration_written" | "calibration_restored" | "calibration_closed" | "visit_opened" | "visit_closed" | "visit_consented" | "visit_removed" | "visit_brought" | "ride_changed" | "ride_deleted" | "upload_deleted" | "table_answered" | "table_forgotten" | "library_item_added" | "library_item_changed" | "library_item_removed" | "store_backed_up" | "store_rebuilt";
         /** Address */
         Address: {
             /**
@@ -6499,6 +6604,41 @@ export interface components {
             secret: string;
         };
         /**
+         * NewPasskeyChallenge
+         * @description What an authenticator is given to make a passkey.
+         */
+        NewPasskeyChallenge: {
+            /**
+             * Challenge
+             * @description Random bytes, for one answer.
+             */
+            challenge: string;
+            /**
+             * Rp Id
+             * @description The name of this server that the passkey will be for.
+             */
+            rp_id: string;
+            /**
+             * User Handle
+             * @description Stands for the account and says nothing of it.
+             */
+            user_handle: string;
+            /** User Name */
+            user_name: string;
+            /**
+             * Algorithms
+             * @description COSE numbers of the signatures that are understood, the preferred one first.
+             */
+            algorithms: number[];
+            /**
+             * Known
+             * @description Ids of the account's credentials for this name: an authenticator that has one makes none.
+             */
+            known: string[];
+            /** Valid S */
+            valid_s: number;
+        };
+        /**
          * NewRider
          * @description An account for who has none, made with the code.
          */
@@ -6556,6 +6696,17 @@ export interface components {
              * @description At least 8 characters, none of the commonest; no other rule.
              */
             new: string;
+        };
+        /**
+         * OwnPasswordOnly
+         * @description Whoever finds an open browser must not leave a way in behind.
+         */
+        OwnPasswordOnly: {
+            /**
+             * Password
+             * Format: password
+             */
+            password: string;
         };
         /**
          * Pairing
@@ -6663,6 +6814,88 @@ export interface components {
             items: components["schemas"]["Parameter"][];
             /** Next */
             next: string | null;
+        };
+        /**
+         * Passkey
+         * @description One of a person's passkeys, without its key.
+         */
+        Passkey: {
+            /** Id */
+            id: number;
+            /** Name */
+            name: string;
+            /**
+             * Rp Id
+             * @description The name of this server that it is for.
+             */
+            rp_id: string;
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /** Used At */
+            used_at: string | null;
+        };
+        /**
+         * PasskeyChallenge
+         * @description What a passkey that is there has to sign.
+         */
+        PasskeyChallenge: {
+            /**
+             * Challenge
+             * @description Random bytes, for one answer.
+             */
+            challenge: string;
+            /**
+             * Rp Id
+             * @description The name of this server that the passkey is for.
+             */
+            rp_id: string;
+            /** Valid S */
+            valid_s: number;
+        };
+        /**
+         * PasskeyIn
+         * @description What an authenticator made, and what it is called.
+         */
+        PasskeyIn: {
+            /** Name */
+            name: string;
+            /**
+             * Client Data
+             * @description `clientDataJSON`.
+             */
+            client_data: string;
+            /**
+             * Attestation
+             * @description `attestationObject`; `none` is enough.
+             */
+            attestation: string;
+        };
+        /**
+         * PasskeyProof
+         * @description What an authenticator signed.
+         */
+        PasskeyProof: {
+            /** Credential Id */
+            credential_id: string;
+            /**
+             * Client Data
+             * @description `clientDataJSON`.
+             */
+            client_data: string;
+            /** Authenticator Data */
+            authenticator_data: string;
+            /** Signature */
+            signature: string;
+            /** User Handle */
+            user_handle: string;
+        };
+        /** Passkeys */
+        Passkeys: {
+            /** Items */
+            items: components["schemas"]["Passkey"][];
         };
         /**
          * Past
@@ -8337,6 +8570,11 @@ export interface components {
              */
             needs_first: boolean;
             signed_in: components["schemas"]["SignedIn"] | null;
+            /**
+             * Passkeys
+             * @description Whether people can sign in with a passkey at this address: it has https and a name.
+             */
+            passkeys: boolean;
         };
         /** SettingsDifference */
         SettingsDifference: {
@@ -11857,6 +12095,381 @@ export interface operations {
             };
             /** @description Unprocessable Entity */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_passkeys: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Passkeys"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    add_passkey: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PasskeyIn"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Passkey"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    begin_passkey: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["OwnPasswordOnly"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["NewPasskeyChallenge"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too Many Requests */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    remove_passkey: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                passkey_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    begin_passkey_sign_in: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PasskeyChallenge"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    sign_in_with_passkey: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PasskeyProof"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Person"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too Many Requests */
+            429: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -10,12 +10,10 @@ calibration is one of the bench's. What was secret that day is looked for in all
 from __future__ import annotations
 
 import hashlib
-import io
 import json
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
-from zipfile import ZipFile
 
 import httpx
 import pytest
@@ -27,12 +25,14 @@ from backend.store import Store
 from backend.store.sql import tables as t
 from backend.store.upkeep.audit import verify_audit
 from tests.fakes.api import description
+from tests.fakes.authenticator import Authenticator
 from tests.fakes.house import PASSWORD
 from tests.fakes.ride_in_time import end_ride, ride_on
-from tests.fakes.server import ServerHere, eventually
+from tests.fakes.server import ServerHere, api_client, eventually
 from tests.fakes.track_files import gpx_file, gpx_track
 from tests.fakes.workshop import Workshop, open_workshop
 from tests.unit.calibration.calibration_job import Workshop as Bench
+from tests.unit.visits.kept_visits import history_of_others
 
 pytestmark = pytest.mark.slow
 A = Action
@@ -44,6 +44,9 @@ AUDITED: dict[str, tuple[Action, ...]] = {
     # Everywhere; of one browser it is nobody else's affair.
     "sign_out": (A.ACCOUNT_SIGNED_OUT_EVERYWHERE,),
     "change_own_password": (A.ACCOUNT_PASSWORD_SET, A.ACCOUNT_SIGNED_IN),
+    "add_passkey": (A.ACCOUNT_PASSKEY_ADDED,),
+    "remove_passkey": (A.ACCOUNT_PASSKEY_REMOVED,),
+    "sign_in_with_passkey": (A.ACCOUNT_SIGNED_IN,),
     "add_person": (A.ACCOUNT_ADDED,),
     "change_person": (A.ACCOUNT_CHANGED, A.ACCOUNT_PASSWORD_SET),
     "remove_person": (A.ACCOUNT_REMOVED,),
@@ -105,6 +108,7 @@ EXEMPT = {
     "add_visit_photo remove_visit_photo",
     "concerns a simulated unit's surroundings": "put_simulation advance_simulation",
     "gives half a minute of what its key or session allows": "give_ticket",
+    "gives five minutes to answer, and keeps nothing": "begin_passkey begin_passkey_sign_in",
 }
 
 Step = Callable[[], object]
@@ -191,9 +195,7 @@ def of_people(workshop: Workshop, watch: Watch, secrets: list[str]) -> None:
     nora = watch("add_person", lambda: ask("Anna", "POST", "/people", json=new), "Anna")["id"]
     change = {"role": "rider", "password": second}
     watch("change_person", lambda: ask("Anna", "PATCH", f"/people/{nora}", json=change), "Anna")
-    with httpx.Client(
-        base_url=f"{url}/api/v1", headers={"origin": url}, trust_env=False, timeout=30.0
-    ) as own:
+    with api_client(url, origin=url) as own:
 
         def done(method: str, path: str, **body: str) -> None:
             answer = own.request(method, path, json=body or None)
@@ -201,26 +203,43 @@ def of_people(workshop: Workshop, watch: Watch, secrets: list[str]) -> None:
             secrets.extend(filter(None, [own.cookies.get("spindle_session")]))
 
         watch("sign_in", lambda: done("POST", "/sign-in", name="nora", password=second), "Nora")
-        word = {"old": second, "new": third}
-        watch("change_own_password", lambda: done("PUT", "/session/password", **word), "Nora")
+        new = {"old": second, "new": third}
+        watch("change_own_password", lambda: done("PUT", "/session/password", **new), "Nora")
         watch("sign_out", lambda: done("DELETE", "/session?everywhere=true"), "Nora")
+    of_passkeys(url.replace("127.0.0.1", "localhost"), watch, {"name": "Nora", "password": third})
     watch("remove_person", lambda: ask("Anna", "DELETE", f"/people/{nora}"), "Anna")
     body = {"name": "bench", "scopes": ["change_register"]}
     key = watch("add_key", lambda: ask("Ben", "POST", "/keys", json=body))
     secrets += [key["secret"], key["secret"].split("_")[-1]]
     made = watch("add_bike", lambda: by_key(workshop, key["secret"], "/bikes", name="program's"))
     assert made.status_code == 201, made.text
-    [event] = watch.events["add_bike"]
-    assert (event["actor_kind"], event["actor_key"]) == ("key", "bench")
+    assert [one["actor_key"] for one in watch.events["add_bike"]] == ["bench"]
     watch("revoke_key", lambda: ask("Ben", "DELETE", f"/keys/{key['key']['id']}"))
 
 
+def of_passkeys(url: str, watch: Watch, who: dict[str, str]) -> None:
+    """By the server's name: at an address there are none."""
+    with api_client(url, origin=url) as own:
+
+        def done(method: str, path: str, body: dict[str, str] | None = None) -> Any:
+            answer = own.request(method, path, json=body)
+            assert answer.is_success, answer.text
+            return answer.json() if answer.content else None
+
+        done("POST", "/sign-in", who)
+        asked = done("POST", "/session/passkeys/challenges", {"password": who["password"]})
+        phone = Authenticator(url)
+        made = {"name": "phone", **phone.make(asked)}
+        passkey = watch("add_passkey", lambda: done("POST", "/session/passkeys", made), "Nora")
+        proof = phone.prove(done("POST", "/sign-in/passkey/challenges"))
+        watch("sign_in_with_passkey", lambda: done("POST", "/sign-in/passkey", proof), "Nora")
+        own_key = f"/session/passkeys/{passkey['id']}"
+        watch("remove_passkey", lambda: done("DELETE", own_key), "Nora")
+
+
 def by_key(workshop: Workshop, secret: str, path: str, **body: str) -> httpx.Response:
-    with httpx.Client(
-        base_url=f"{workshop.server.url}/api/v1", trust_env=False, timeout=30.0
-    ) as program:
-        headers = {"authorization": f"Bearer {secret}"}
-        return program.post(path, json=body, headers=headers)
+    with api_client(workshop.server.url) as program:
+        return program.post(path, json=body, headers={"authorization": f"Bearer {secret}"})
 
 
 def of_bikes(workshop: Workshop, watch: Watch, secrets: list[str]) -> None:
@@ -238,9 +257,7 @@ def of_bikes(workshop: Workshop, watch: Watch, secrets: list[str]) -> None:
     other = offer()
     account = {"name": "Zoe", "password": "Zoes einziges Wort"}
     secrets.append("Zoes einziges Wort")
-    with httpx.Client(
-        base_url=f"{workshop.server.url}/api/v1", trust_env=False, timeout=30.0
-    ) as stranger:
+    with api_client(workshop.server.url) as stranger:
         path = f"/pairings/{other}/account"
         watch("join_by_pairing", lambda: stranger.post(path, json=account), "Zoe")
     track = gpx_file(gpx_track((9000, 9100)))
@@ -262,27 +279,17 @@ def of_visits(workshop: Workshop, watch: Watch, secrets: list[str]) -> None:
     mistake = watch("open_visit", begun)["id"]
     watch("remove_visit", lambda: ask("Ben", "DELETE", f"/visits/{mistake}"))
     visit = begun()
-    signed = {"name": "Ritas Tante", "strokes": [[0.1, 0.1, 0.5, 0.5]]}
-    signed |= {"content_sha256": visit["content_sha256"]}
+    hashed = {"content_sha256": visit["content_sha256"]}
+    signed = {"name": "Ritas Tante", "strokes": [[0.1, 0.1, 0.5, 0.5]], **hashed}
     path = f"/visits/{visit['id']}"
     watch("consent_to_visit", lambda: ask("Ben", "POST", f"{path}/consent", json=signed))
     watch("close_visit", lambda: ask("Ben", "POST", f"{path}/close"))
     history = workshop.clients["Ben"].get(f"/bikes/{bike}/history").content
     # As another server would have it: the visits of this one are known here.
-    theirs = history_of_others(history, visit["token"])
+    theirs = {"content": history_of_others(history, visit["token"])}
     path = f"/bikes/{bike}/history"
-    added = watch("add_bike_history", lambda: ask("Ben", "POST", path, content=theirs))
+    added = watch("add_bike_history", lambda: ask("Ben", "POST", path, **theirs))
     assert added == {"added": 1, "known": 0}
-
-
-def history_of_others(history: bytes, token: str) -> bytes:
-    """A bike's history with another visit in it than this one."""
-    with ZipFile(io.BytesIO(history)) as archive:
-        text = archive.read("history.json").decode().replace(token, "f" * 32)
-    file = io.BytesIO()
-    with ZipFile(file, "w") as archive:
-        archive.writestr("history.json", text)
-    return file.getvalue()
 
 
 def of_rides(workshop: Workshop, watch: Watch) -> None:

@@ -35,6 +35,7 @@ ADMIN = {"get_backup", "list_people", "add_person", "change_person", "remove_per
 ENGINEER = {"put_simulation", "advance_simulation"}
 RIDER = {"compute_surface", "compute_points", "compute_torque_surface", "compute_mode_curves"}
 RIDER |= {"lint_table", "why_steady", "evaluate_calibration", "read_fis", "list_scenarios"}
+RIDER |= {"list_passkeys", "begin_passkey", "add_passkey", "remove_passkey"}
 RIDER |= {"sign_out", "change_own_password", "give_ticket", "list_keys", "add_key", "revoke_key"}
 # Of bikes, rides and files that are theirs; a bike is handed over by its owner.
 RIDER |= {"list_bikes", "get_bike", "change_bike", "pair_bike", "leave_bike", "take_pairing"}
@@ -49,6 +50,7 @@ RIDER |= {"list_uploads", "import_ride", "describe_uploads", "create_upload", "a
 RIDER |= {"get_upload", "get_upload_offset", "delete_upload", "get_mapping", "put_mapping"}
 STRANGER = {"get_healthz", "get_readyz", "get_session", "sign_in", "make_first_person"}
 STRANGER |= {"get_pairing", "join_by_pairing"}
+STRANGER |= {"begin_passkey_sign_in", "sign_in_with_passkey"}
 # The codes of those who are refused for who they are.
 CLOSED = {"sign_in_first", "not_allowed", "not_in_the_table"}
 

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import cast
+from zipfile import ZipFile
 
 from PIL import Image
 from sqlalchemy import insert
@@ -82,3 +83,13 @@ def files_of_visits(objects: Path) -> list[str]:
     """Names of the files of visits, sorted."""
     folder = objects / "visits"
     return sorted(path.name for path in folder.iterdir()) if folder.is_dir() else []
+
+
+def history_of_others(history: bytes, token: str) -> bytes:
+    """A bike's history with another visit in it than this one."""
+    with ZipFile(io.BytesIO(history)) as archive:
+        text = archive.read("history.json").decode().replace(token, "f" * 32)
+    file = io.BytesIO()
+    with ZipFile(file, "w") as archive:
+        archive.writestr("history.json", text)
+    return file.getvalue()

@@ -1,0 +1,1 @@
+"""Passkeys (W3C Web Authentication, level 3): a browser signs in by its authenticator."""
