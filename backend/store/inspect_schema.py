@@ -20,8 +20,9 @@ from backend.store.discard import calibration_key
 from backend.store.health import DAMAGED as FILE_DAMAGED
 from backend.store.health import code_of, reason_of
 from backend.store.objects import RIDE_SUFFIX, content_key, sidecar_key
-from backend.store.sql.database import shown, sqlite_path
+from backend.store.sql.database import HEAD_REVISION, current_revision, shown, sqlite_path
 from backend.store.sql.sound_rows import NOT_AS_WRITTEN, decoded, parsed
+from backend.store.sql.tables import metadata
 
 MISSING, EMPTY, DAMAGED, FOREIGN, OK = "missing", "empty", "damaged", "foreign", "ok"
 # The end of the year 9999, the last that ISO 8601 tells with four digits.
@@ -75,7 +76,8 @@ def inspect_database(url: str, check_contents: bool = False) -> DatabaseView:
             view = view_of(connection)
             if path is not None and check_contents and view.state == OK:
                 verdict = connection.execute(text("PRAGMA quick_check(1)")).scalar_one()
-                return view if verdict == "ok" else DatabaseView(DAMAGED, str(verdict))
+                fault = lacking(connection, engine) if verdict == "ok" else str(verdict)
+                return view if fault is None else DatabaseView(DAMAGED, fault)
             if path is None and view.state != OK:
                 require_unicode(connection, shown(url))
             return view
@@ -180,6 +182,22 @@ def view_of(connection: Connection) -> DatabaseView:
         named_keys=named_by_rows | {sidecar_key(key) for key in rides} | frozenset(discarded),
         live=live_recordings(connection),
     )
+
+
+def lacking(connection: Connection, engine: Engine) -> str | None:
+    """What a database of today's schema lacks of it, None for nothing or for an older one. SQLite
+    takes whatever stands in its own schema for a name, also one with a flipped bit."""
+    if current_revision(engine) != HEAD_REVISION:
+        return None
+    inspector = inspect(connection)
+    tables = set(inspector.get_table_names())
+    for table in metadata.sorted_tables:
+        if table.name not in tables:
+            return f"it has no table {table.name}"
+        there = {column["name"] for column in inspector.get_columns(table.name)}
+        if left := sorted(set(table.columns.keys()) - there):
+            return f"its table {table.name} has no {', '.join(left)}"
+    return None
 
 
 def live_recordings(connection: Connection) -> tuple[LiveRecording, ...]:

@@ -33,7 +33,7 @@ LINES_MAX = {
     "backend/people": 2_280,
     "backend/rides": 10_650,
     "backend/server": 660,
-    "backend/store": 8_360,
+    "backend/store": 8_380,
     "backend/tuning": 3_540,
     "backend/units": 2_270,
     "backend/visits": 2_060,
@@ -42,7 +42,7 @@ LINES_MAX = {
     "frontend": 49_220,
     "sim_device": 21_150,
     "spindle": 700,
-    "tests": 77_330,
+    "tests": 77_350,
     "tools": 4_800,
 }
 """Lines of written code a room may have. A commit lowers a budget with what it removes; one that

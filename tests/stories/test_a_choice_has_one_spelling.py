@@ -59,6 +59,9 @@ def pair(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[SpindleServ
         yield server, known, blank
 
 
+OF_PEOPLE = {"/api/v1/keys", "/api/v1/session/passkeys"}
+
+
 def questions() -> list[str]:
     """Every question about a unit, or about nothing, that needs no more than its address."""
     return [
@@ -68,7 +71,7 @@ def questions() -> list[str]:
         if "application/json" in operations["get"]["responses"]["200"]["content"]
         if set(re.findall(r"{(\w+)}", path)) <= {"device_id"}
         # This server asks nobody to sign in, and has no accounts to tell of.
-        if operations["get"].get("x-permission") != "manage_people" and path != "/api/v1/keys"
+        if operations["get"].get("x-permission") != "manage_people" and path not in OF_PEOPLE
         if not any(
             parameter["required"] and parameter["in"] == "query"
             for parameter in operations["get"].get("parameters", ())

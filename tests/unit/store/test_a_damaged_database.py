@@ -195,6 +195,29 @@ def test_a_page_of_the_file_that_is_destroyed_is_told_and_everything_comes_back(
     assert check_store(*urls(folder)).is_fine
 
 
+@pytest.mark.parametrize(
+    ("name", "other", "lacks"),
+    [
+        (b"accepted_doubts", b"accepteddoubts_", "its table ride has no accepted_doubts"),
+        (b"passkey", b"pbsskey", "it has no table passkey"),
+    ],
+    ids=["a column", "a table"],
+)
+def test_a_schema_that_lacks_a_name_is_damaged_and_rebuilt(
+    sound: Path, tmp_path: Path, name: bytes, other: bytes, lacks: str
+) -> None:
+    folder = tmp_path / "store"
+    shutil.copytree(sound, folder)
+    data = (folder / "spindle.db").read_bytes()
+    assert name in data
+    (folder / "spindle.db").write_bytes(data.replace(name, other))
+
+    view = check_store(*urls(folder)).database
+
+    assert (view.state, view.detail) == ("damaged", lacks)
+    assert rebuild_store(*urls(folder)).rides == RIDES
+
+
 @pytest.mark.parametrize("seed", range(12))
 def test_whatever_bit_flips_nothing_ends_in_a_traceback(
     sound: Path, tmp_path: Path, seed: int
