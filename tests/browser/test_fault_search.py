@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page, Request, expect
 
 from tests.browser.conftest import OpenDesk
 from tests.browser.desk import sideways
@@ -36,9 +36,14 @@ def faulty(server: SpindleServer, standing: str) -> str:
 
 
 def writes_of(page: Page) -> list[str]:
-    """What is asked of the server from now on that is not only read."""
+    """What is asked of units from now on that is not only read; the sheet of a bike is written."""
     asked: list[str] = []
-    page.on("request", lambda request: request.method != "GET" and asked.append(request.url))
+
+    def seen(request: Request) -> None:
+        if request.method != "GET" and "/bikes/" not in request.url:
+            asked.append(request.url)
+
+    page.on("request", seen)
     return asked
 
 

@@ -72,6 +72,7 @@ NOTHING_OPEN = {"bike", "compare", "connect", "live", "try", "why", "library", "
     "fleet_bike",
     "settings",
     "unknown",
+    "visit",
 }
 
 
