@@ -42,7 +42,7 @@ LINES_MAX = {
     "frontend": 49_220,
     "sim_device": 21_150,
     "spindle": 700,
-    "tests": 77_350,
+    "tests": 77_360,
     "tools": 4_800,
 }
 """Lines of written code a room may have. A commit lowers a budget with what it removes; one that
