@@ -128,6 +128,8 @@ def test_on_paper_the_page_names_the_unit_and_shows_no_buttons(
     with_faults(desk)
     page = desk.open("/service")
     expect(page.locator("[data-fault=torque_sensor]")).to_be_visible()
+    # Its statements are shown for paper by what comes last onto the page.
+    expect(page.get_by_role("heading", name="What is proven")).to_be_visible()
 
     page.evaluate("window.dispatchEvent(new Event('beforeprint'))")
     page.emulate_media(media="print")
