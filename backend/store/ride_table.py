@@ -261,10 +261,8 @@ def inserted(connection: Connection, body: dict[str, object], context: RideConte
     twin = select(t.ride.c.id).where(t.ride.c.id == body.get("same_ride_as"))
     twin = twin.where(t.ride.c.owner_id.is_not_distinct_from(body["owner_id"]))
     body["same_ride_as"] = connection.execute(twin).scalar()
-    count = update(t.ride_number).values(last=t.ride_number.c.last + 1)
-    ride_id = int(connection.execute(count.returning(t.ride_number.c.last)).scalar_one())
-    connection.execute(insert(t.ride).values(body | {"id": ride_id}))
-    return ride_id
+    made = insert(t.ride).values(body).returning(t.ride.c.id)
+    return int(connection.execute(made).scalar_one())
 
 
 def correct(

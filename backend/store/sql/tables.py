@@ -26,7 +26,8 @@ from sqlalchemy import (
 
 from backend.store.sql.audit_tables import audit_event as audit_event
 from backend.store.sql.audit_tables import audit_head as audit_head
-from backend.store.sql.every_table import KEY, key
+from backend.store.sql.every_table import KEY, key, lasting_key
+from backend.store.sql.every_table import last_number as last_number
 from backend.store.sql.every_table import metadata as metadata
 
 # One row: which folder of objects this database belongs to. rebuilding: a rebuild is not through.
@@ -67,7 +68,7 @@ unit = Table(
 bike = Table(
     "bike",
     metadata,
-    key(),
+    lasting_key("bike"),
     Column("name", Text, nullable=False),
     Column("created_us", BigInteger, nullable=False),
     Column("model", Text),
@@ -139,7 +140,7 @@ revision = Table(
 visit = Table(
     "visit",
     metadata,
-    key(),
+    lasting_key("visit"),
     Column("token", String(32), nullable=False, unique=True),
     Column("bike_id", KEY, ForeignKey("bike.id"), nullable=False, index=True),
     Column("open_for", KEY, unique=True),
@@ -255,7 +256,7 @@ upload = Table(
 ride = Table(
     "ride",
     metadata,
-    key(),
+    lasting_key("ride"),
     Column("state", String(8), nullable=False, index=True),
     Column("origin", String(16), nullable=False),
     Column("name", Text, nullable=False),
@@ -340,10 +341,6 @@ ride_zero = Table(
     Column("reason", String(16)),
 )
 
-# One row: the last number a ride was given. SQLite by itself would give the highest one again after
-# that ride was deleted, and a bookmark would show another ride.
-ride_number = Table("ride_number", metadata, Column("last", KEY, nullable=False))
-
 # Whose bytes a ride lives on: it was `made` of an upload, `filled` from it, or is `beside` it, the
 # same ride in another file. The original lives as long as one of its rides.
 ride_source = Table(
@@ -424,7 +421,7 @@ ride_lod = Table(
 account = Table(
     "account",
     metadata,
-    key(),
+    lasting_key("account"),
     Column("name", String(64), nullable=False),
     Column("folded", String(128), nullable=False, unique=True),
     Column("role", String(16), nullable=False),
@@ -438,7 +435,7 @@ account = Table(
 session = Table(
     "session",
     metadata,
-    key(),
+    lasting_key("session"),
     Column("account_id", KEY, ForeignKey("account.id"), nullable=False, index=True),
     Column("token_sha256", String(64), nullable=False, unique=True),
     Column("created_us", BigInteger, nullable=False),
@@ -449,7 +446,7 @@ session = Table(
 api_key = Table(
     "api_key",
     metadata,
-    key(),
+    lasting_key("api_key"),
     Column("account_id", KEY, ForeignKey("account.id"), nullable=False, index=True),
     Column("name", String(64), nullable=False),
     Column("prefix", String(16), nullable=False, unique=True),
@@ -469,7 +466,7 @@ api_key = Table(
 passkey = Table(
     "passkey",
     metadata,
-    key(),
+    lasting_key("passkey"),
     Column("account_id", KEY, ForeignKey("account.id"), nullable=False, index=True),
     Column("credential_id", Text, nullable=False, unique=True),
     Column("public_key", LargeBinary, nullable=False),
