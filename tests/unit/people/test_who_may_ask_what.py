@@ -26,7 +26,7 @@ from backend.store import open_store
 from backend.web.app import WebSettings
 from backend.web.permissions import Anyone
 from tests.fakes.api import description
-from tests.fakes.house import ORDER, ORIGIN, PASSWORD, House, bearer, new_key
+from tests.fakes.house import ORDER, ORIGIN, PASSWORD, House, bearer, new_key, open_house
 
 # Not described, because no program asks for them by its description.
 BESIDE = {"get_not_built", "get_docs", "get_description", "live"}
@@ -250,11 +250,12 @@ def test_a_name_that_exists_and_one_that_does_not_get_the_same_answer(house: Hou
     assert [one.status_code for one in answers] == [401, 401]
 
 
-def test_wrong_passwords_wait_and_are_told_how_long(house: House) -> None:
-    client = house.client()
+def test_wrong_passwords_wait_and_are_told_how_long(tmp_path: Path) -> None:
     body = {"name": "Mallory's guess", "password": "wrong wrong"}
-    statuses = [client.post("/api/v1/sign-in", json=body).status_code for _ in range(5)]
-    refused = client.post("/api/v1/sign-in", json=body)
+    with open_house(tmp_path, now_s=lambda: 0.0) as house:
+        client = house.client()
+        statuses = [client.post("/api/v1/sign-in", json=body).status_code for _ in range(5)]
+        refused = client.post("/api/v1/sign-in", json=body)
 
     assert statuses == [401] * 5
     assert (refused.status_code, refused.json()["code"]) == (429, "too_many_tries")
