@@ -29,8 +29,10 @@ from backend.bikes.service import Bikes
 from backend.calibration.bike.service import BikeNumbers
 from backend.calibration.certified_torque import CertifiedTorque
 from backend.calibration.clock import JobDates
+from backend.calibration.describe import summary_of
 from backend.calibration.records import CalibrationStore
 from backend.calibration.service import Calibrations, open_calibrations
+from backend.calibration.types import JobSummary
 from backend.core.audit import Note
 from backend.core.ride import Ride
 from backend.device.driver import LinkOpener
@@ -281,8 +283,12 @@ def make_workbench(
 def make_visits(store: Store, devices: Devices, inspection: Inspection, tuning: Tuning) -> Visits:
     """Service visits, with what became of the unit meanwhile."""
     workbench = make_workbench(store, devices, inspection, tuning)
-    revisions, calibrations = RevisionStore(store.database), CalibrationStore(store)
-    return Visits(VisitStore(store), workbench, revisions, calibrations.list)
+    revisions, jobs = RevisionStore(store.database), CalibrationStore(store)
+
+    def calibrations(unit_key: str) -> list[JobSummary]:
+        return [summary_of(job) for job in jobs.list(unit_key)]
+
+    return Visits(VisitStore(store), workbench, revisions, calibrations)
 
 
 def make_calibrations(

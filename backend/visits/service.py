@@ -7,7 +7,8 @@ import secrets
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import IO, Any, Protocol
+from datetime import datetime
+from typing import IO, Any, Literal, Protocol
 
 from backend.core.canonical_json import sha256_of
 from backend.core.moments import utc, utc_or_none
@@ -39,17 +40,32 @@ from backend.visits.types import (
 from backend.visits.workbench import Workbench
 
 
+class CalibrationResult(Protocol):
+    """What a calibration came to."""
+
+    @property
+    def verdict(self) -> Literal["pass", "conditional", "fail"] | None: ...
+    @property
+    def linearity_pct(self) -> float | None: ...
+    @property
+    def hysteresis_pct(self) -> float | None: ...
+    @property
+    def expanded_nm(self) -> float | None: ...
+
+
 class ClosedCalibration(Protocol):
     """What a visit has of a calibration job."""
 
     @property
     def id(self) -> int: ...
     @property
-    def closed_us(self) -> int | None: ...
+    def closed_at(self) -> datetime | None: ...
     @property
     def author(self) -> str: ...
     @property
-    def sha256(self) -> str | None: ...
+    def file_sha256(self) -> str | None: ...
+    @property
+    def result(self) -> CalibrationResult: ...
 
 
 class Visits:
@@ -166,16 +182,22 @@ class Visits:
         """Note that the owner agrees with what was done: by their own account, or by a signature
         that the workshop hands over. person: who requests it, None where nobody signs in.
 
-        Raises NotFound; InvalidRequest; Conflict `visit_changed` where it is otherwise by now;
-        StoreError.
+        Raises NotFound; InvalidRequest; Conflict `visit_changed` where it is otherwise by now, and
+        `consented_already` where a consent holds; StoreError.
         """
-        content_sha256 = self._seen(self._visits.get(visit_id)).content_sha256
-        if request.content_sha256 != content_sha256:
-            message = "The visit is otherwise by now: look at it again before you consent."
-            raise Conflict(message, "visit_changed")
         consent = consent_of(request, person)
+        before = self._visits.get(visit_id)
+        seen = self._seen(before)
+        require_same(request.content_sha256 == seen.content_sha256)
+        if seen.consent_holds:
+            raise Conflict("Somebody consented to this already.", "consented_already")
+
+        def given(now: StoredVisit) -> VisitConsent:
+            require_same((now.version, now.consent) == (before.version, before.consent))
+            return consent
+
         owner_id = None if person is None or person.role != "rider" else person.id
-        return self._seen(self._visits.consent(visit_id, lambda _: consent), owner_id)
+        return self._seen(self._visits.consent(visit_id, given), owner_id)
 
     def write_history(self, bike_id: int, file: IO[bytes]) -> None:
         """Write the closed visits of a bike as a file. Raises NotFound, StoreError."""
@@ -212,11 +234,8 @@ class Visits:
         if visit.closed_us is not None or key is None:
             return visit
         revisions = self._revisions.list(key)
-        calibrations = tuple(
-            VisitCalibration(job.id, utc(job.closed_us), job.author, job.sha256)
-            for job in self._calibrations(key)
-            if job.closed_us is not None and job.sha256 and job.closed_us >= visit.opened_us
-        )
+        found = (calibration_since(job, utc(visit.opened_us)) for job in self._calibrations(key))
+        calibrations = tuple(one for one in found if one is not None)
         changes = changes_since(revisions, visit.content.revision_seq)
         content = replace(visit.content, changes=changes, calibrations=calibrations)
         return replace(visit, content=content)
@@ -231,7 +250,7 @@ class Visits:
         if owner_id is not None:
             content = replace(content, customer="")
             if consent is not None and consent.person_id != owner_id:
-                consent = replace(consent, name=None, strokes=())
+                consent = replace(consent, name=None, person_id=None, strokes=())
         return Visit(
             id=visit.id,
             token=visit.token,
@@ -248,6 +267,22 @@ class Visits:
             consent=consent,
             consent_holds=holds,
         )
+
+
+def calibration_since(job: ClosedCalibration, opened_at: datetime) -> VisitCalibration | None:
+    """What a visit keeps of a calibration; None of one that was not closed during it."""
+    if job.closed_at is None or job.file_sha256 is None or job.closed_at < opened_at:
+        return None
+    return VisitCalibration(
+        id=job.id,
+        closed_at=job.closed_at,
+        author=job.author,
+        sha256=job.file_sha256,
+        verdict=job.result.verdict,
+        linearity_pct=job.result.linearity_pct,
+        hysteresis_pct=job.result.hysteresis_pct,
+        expanded_nm=job.result.expanded_nm,
+    )
 
 
 def require_open(visit: StoredVisit) -> None:
@@ -281,6 +316,13 @@ def require_on_bike(unit_key: str, key_on_bike: str | None) -> None:
             f"The unit {unit_key} is not on this bike: put it on it first, or connect its own."
         )
         raise Conflict(message, "other_bike")
+
+
+def require_same(is_same: bool) -> None:
+    """Raises Conflict `visit_changed` for a visit that is not as it was seen."""
+    if not is_same:
+        message = "The visit is otherwise by now: look at it again before you consent."
+        raise Conflict(message, "visit_changed")
 
 
 def consent_of(request: VisitConsentIn, person: Person | None) -> VisitConsent:

@@ -110,12 +110,18 @@ class VisitChange:
 
 @described
 class VisitCalibration:
-    """A calibration that was closed during the visit."""
+    """A calibration that was closed during the visit; what it came to is null without a fit."""
 
     id: int
     closed_at: AwareDatetime
     author: str
     sha256: str
+    """Of its file."""
+    verdict: Literal["pass", "conditional", "fail"] | None = None
+    linearity_pct: float | None = None
+    hysteresis_pct: float | None = None
+    expanded_nm: float | None = None
+    """The largest uncertainty of the torque, k = 2."""
 
 
 @described
@@ -153,7 +159,7 @@ class VisitConsent:
     name: str | None
     """Null for an earlier owner's, to an owner."""
     person_id: int | None
-    """The account's number; null for a signature."""
+    """The account's number; null for a signature, and for an earlier owner's, to an owner."""
     at: AwareDatetime
     content_sha256: str
     strokes: tuple[tuple[float, ...], ...]

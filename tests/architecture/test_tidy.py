@@ -19,7 +19,7 @@ FUNCTION_LINES_MAX = 70
 LINE_LENGTH_MAX = 100
 CODE_SUFFIXES = {".py", ".c", ".h", ".ts", ".svelte", ".css"}
 LINES_MAX = {
-    "backend": 1_740,
+    "backend": 1_750,
     "backend/audit": 370,
     "backend/bikes": 920,
     "backend/calibration": 7_650,
@@ -33,16 +33,16 @@ LINES_MAX = {
     "backend/people": 2_280,
     "backend/rides": 10_650,
     "backend/server": 660,
-    "backend/store": 8_380,
+    "backend/store": 8_430,
     "backend/tuning": 3_540,
     "backend/units": 2_270,
-    "backend/visits": 2_060,
+    "backend/visits": 2_110,
     "backend/web": 1_740,
     "firmware_protocol": 4_450,
-    "frontend": 49_220,
+    "frontend": 49_030,
     "sim_device": 21_150,
     "spindle": 700,
-    "tests": 77_360,
+    "tests": 77_690,
     "tools": 4_800,
 }
 """Lines of written code a room may have. A commit lowers a budget with what it removes; one that

@@ -5,10 +5,8 @@ those that are over.
 from __future__ import annotations
 
 import json
-import re
 from typing import Any
 
-import pytest
 from playwright.sync_api import Route, expect
 
 from tests.browser.conftest import OpenDesk
@@ -118,32 +116,3 @@ def test_what_was_changed_is_told_while_the_unit_is_silent(
     expect(since.locator("[data-verdict=too_few]")).to_be_visible()
     expect(since.locator("[data-since=motor_wh_per_km] td")).to_have_count(2)
     expect(since).to_contain_text("Other roads, another wind")
-
-
-@pytest.mark.parametrize("theme", ["light", "dark"])
-def test_on_paper_the_page_names_the_unit_and_shows_no_buttons(
-    open_desk: OpenDesk, server: SpindleServer, standing: str, theme: str
-) -> None:
-    desk = open_desk(theme=theme)
-    with_faults(desk)
-    page = desk.open("/service")
-    expect(page.locator("[data-fault=torque_sensor]")).to_be_visible()
-    # Its statements are shown for paper by what comes last onto the page.
-    expect(page.get_by_role("heading", name="What is proven")).to_be_visible()
-
-    page.evaluate("window.dispatchEvent(new Event('beforeprint'))")
-    page.emulate_media(media="print")
-
-    expect(page.locator("[data-code=power_continuous]")).to_be_visible()
-    head = page.get_by_test_id("sheet-head")
-    expect(head).to_be_visible()
-    expect(head).to_contain_text(server.get(f"/devices/{standing}")["identity"]["serial_number"])
-    expect(page.locator("nav").first).to_be_hidden()
-    expect(page.get_by_role("button").locator("visible=true")).to_have_count(0)
-    assert page.evaluate("getComputedStyle(document.documentElement).color") == "rgb(0, 0, 0)"
-    pages = page.pdf(format="A4", print_background=True)
-    assert len(re.findall(rb"/Type\s*/Page[^s]", pages)) == 1
-    box = head.bounding_box()
-    assert box is not None
-    assert box["width"] > 1000  # the sheet's width, not the menu's column
-    desk.picture(f"service-paper-{theme}", full=True)

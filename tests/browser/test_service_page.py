@@ -8,16 +8,14 @@ from __future__ import annotations
 
 import json
 import re
-from datetime import UTC, datetime
 from pathlib import Path
 
-from playwright.sync_api import Route, expect
+from playwright.sync_api import expect
 
 from backend.formats.backup import read_backup
 from tests.browser.conftest import OpenDesk
 from tests.browser.desk import sideways
 from tests.browser.judged import COVERED, JUDGE, moved
-from tests.browser.recorded_ride import record_ride
 from tests.fakes.server import SpindleServer
 
 CALIBRATED = {
@@ -94,52 +92,6 @@ def test_a_dark_phone_reads_the_service_in_chinese(
     assert sideways(page) == 0
     assert page.evaluate(COVERED) == []
     assert re.findall(r"\b[a-z]+\.[a-z_]+\b", page.inner_text("main")) == []
-
-
-def test_the_sheet_has_the_calibration_and_the_ride_after_the_work(
-    open_desk: OpenDesk, server: SpindleServer, standing: str
-) -> None:
-    config = server.get(f"/devices/{standing}/config")
-    offset = config["parameters"]["sensor_offset_counts"]
-    body = {"parameters": {"sensor_offset_counts": offset - 3.0}, "reason": "cold morning"}
-    server.ask("PATCH", f"/devices/{standing}/config", json=body)
-    server.simulate(standing, clock="virtual")
-    # A ride begins two seconds before the bike moves.
-    server.advance(standing, 3.0)
-    record_ride(server, standing)
-    server.simulate(standing, clock="real")
-    desk = open_desk(width=1440, height=900)
-
-    ridden_at = datetime.now(UTC).isoformat()
-
-    def later(route: Route) -> None:
-        """By the wall's clock, which stood while it was ridden, it would be before the change."""
-        rides = route.fetch().json()
-        for ride in rides["items"]:
-            ride["started_at"] = ridden_at
-        route.fulfill(json=rides)
-
-    desk.page.route("**/api/v1/rides?*", later)
-    page = desk.open("/service")
-    page.get_by_role("textbox", name="Complaint").fill("No help since this afternoon")
-    expect(page.get_by_test_id("checks").locator("tbody .passed").first).to_be_visible()
-
-    page.evaluate("window.dispatchEvent(new Event('beforeprint'))")
-    page.emulate_media(media="print")
-
-    sheet = page.get_by_test_id("on-sheet")
-    expect(sheet).to_contain_text(re.compile(r"Ride after the work, \d+:\d\d"))
-    expect(sheet.get_by_role("img")).to_have_count(2)
-    expect(sheet).to_contain_text(re.compile(r"speed, 0 to [12]\d\skm/h"))
-    expect(sheet).to_contain_text(re.compile(r"motor power, 0 to \d+\sW"))
-    expect(sheet).to_contain_text("Held back by")
-    expect(sheet).to_contain_text(f"{offset - 3:.0f} counts")
-    expect(page.get_by_test_id("sheet-faults")).to_be_visible()
-    expect(page.get_by_test_id("faults")).to_be_hidden()
-    expect(page.locator("main")).to_contain_text("No help since this afternoon")
-    pages = page.pdf(format="A4", print_background=True)
-    assert len(re.findall(rb"/Type\s*/Page[^s]", pages)) == 1
-    desk.picture("service-sheet", full=True)
 
 
 def test_the_backup_of_the_unit_is_read_and_each_revision_has_its_limit_proof(

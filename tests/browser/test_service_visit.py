@@ -10,13 +10,15 @@ from __future__ import annotations
 import io
 import re
 from collections.abc import Iterator
+from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
 from PIL import Image
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page, Route, expect
 
 from tests.browser.conftest import OpenDesk
+from tests.browser.recorded_ride import record_ride
 from tests.browser.workshop_desk import check, sign_in
 from tests.fakes.workshop import Workshop, open_workshop
 
@@ -96,7 +98,7 @@ def test_a_bike_is_taken_in_and_given_back(
     expect(visit).to_contain_text("No help since this afternoon")
     expect(dealer.get_by_test_id("changed")).to_contain_text("210 ms")
     expect(dealer.get_by_test_id("changed")).to_contain_text("stops late")
-    expect(dealer.get_by_test_id("sheet-faults")).to_contain_text("Torque sensor")
+    expect(dealer.get_by_test_id("visit-faults")).to_contain_text("Torque sensor")
     expect(dealer.get_by_test_id("visit-checks")).to_contain_text("Battery voltage")
     check(dealer, axe)
     desk.picture("visit", full=True)
@@ -114,10 +116,73 @@ def test_a_bike_is_taken_in_and_given_back(
 
     desk.open(place)
     expect(dealer.get_by_test_id("consent")).to_contain_text("Rita consented")
+
+
+CALIBRATION = {
+    **{"id": 3, "closed_at": "2026-11-22T14:50:00Z", "author": "Ben", "sha256": "c" * 64},
+    **{"verdict": "pass", "linearity_pct": 0.25, "hysteresis_pct": 0.13, "expanded_nm": 0.76},
+}
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_the_sheet_is_a_page_of_paper_with_the_ride_after_the_work(
+    open_desk: OpenDesk, workshop: Workshop, unit: tuple[str, int], theme: str
+) -> None:
+    device, bike = unit
+    server = workshop.server
+    words = {"job": "0815", "complaint": "It bucks", "done": "Plug dried", "device_id": device}
+    visit = workshop.ask("Ben", "POST", f"/bikes/{bike}/visits", json=words)["id"]
+    body = {"parameters": {"pedal_stop_ms": 210.0}, "reason": "stops late"}
+    workshop.ask("Ben", "PATCH", f"/devices/{device}/config", json=body)
+    server.simulate(device, clock="virtual")
+    # A ride begins two seconds before the bike moves.
+    server.advance(device, 3.0)
+    record_ride(server, device)
+    server.simulate(device, clock="real")
+    ridden_at = datetime.now(UTC).isoformat()
+    desk = open_desk(1440, 900, theme, address=server.url)
+    dealer = sign_in(desk, workshop, "Ben")
+
+    def later(route: Route) -> None:
+        """By the wall's clock, which stood while it was ridden, it began before the change."""
+        rides = route.fetch(url=re.sub(r"&(from|to)=[^&]*", "", route.request.url)).json()
+        for ride in rides["items"]:
+            ride["started_at"] = ridden_at
+        route.fulfill(json=rides)
+
+    def calibrated(route: Route) -> None:
+        """As with a calibration meanwhile, which takes a bench and a quarter of an hour."""
+        found = route.fetch().json()
+        found["content"]["calibrations"] = [CALIBRATION]
+        route.fulfill(json=found)
+
+    dealer.route("**/api/v1/rides?*", later)
+    dealer.route(f"**/api/v1/visits/{visit}", calibrated)
+    desk.open("/service")
+    dealer.get_by_role("button", name="Service sheet").click()
+    dealer.wait_for_url(re.compile(rf"/visits/{visit}$"))
+    after = dealer.get_by_test_id("after-work")
+    expect(after).to_contain_text(re.compile(r"Ride after the work, \d+:\d\d"))
+    expect(after.get_by_role("img")).to_have_count(2)
+    expect(after).to_contain_text(re.compile(r"speed, 0 to [12]\d\skm/h"))
+    expect(after).to_contain_text(re.compile(r"motor power, 0 to \d+\sW"))
+    expect(after).to_contain_text("Held back by")
+    desk.picture(f"visit-sheet-screen-{theme}", full=True)
+
     dealer.emulate_media(media="print")
+
+    sheet = dealer.get_by_test_id("visit")
+    serial = server.get(f"/devices/{device}")["identity"]["serial_number"]
+    for text in ("job 0815", "It bucks", "Plug dried", serial, "210 ms", "Battery voltage"):
+        expect(sheet).to_contain_text(text)
+    expect(sheet.get_by_test_id("calibrated")).to_contain_text("0.76")
+    expect(dealer.get_by_text("Technician, date")).to_be_visible()
+    expect(dealer.locator("nav").first).to_be_hidden()
+    expect(dealer.get_by_role("button").locator("visible=true")).to_have_count(0)
+    assert dealer.evaluate("getComputedStyle(document.documentElement).color") == "rgb(0, 0, 0)"
     pages = dealer.pdf(format="A4", print_background=True)
-    assert len(re.findall(rb"/Type\s*/Page[^s]", pages)) <= 2
-    expect(dealer.get_by_role("navigation")).to_be_hidden()
+    assert len(re.findall(rb"/Type\s*/Page[^s]", pages)) == 1
+    desk.picture(f"visit-sheet-{theme}", full=True)
 
 
 def test_a_visit_is_signed_in_the_workshop_and_its_history_goes_on(

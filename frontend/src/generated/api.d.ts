@@ -10265,7 +10265,7 @@ export interface components {
         };
         /**
          * VisitCalibration
-         * @description A calibration that was closed during the visit.
+         * @description A calibration that was closed during the visit; what it came to is null without a fit.
          */
         VisitCalibration: {
             /** Id */
@@ -10277,8 +10277,22 @@ export interface components {
             closed_at: string;
             /** Author */
             author: string;
-            /** Sha256 */
+            /**
+             * Sha256
+             * @description Of its file.
+             */
             sha256: string;
+            /** Verdict */
+            verdict: ("pass" | "conditional" | "fail") | null;
+            /** Linearity Pct */
+            linearity_pct: number | null;
+            /** Hysteresis Pct */
+            hysteresis_pct: number | null;
+            /**
+             * Expanded Nm
+             * @description The largest uncertainty of the torque, k = 2.
+             */
+            expanded_nm: number | null;
         };
         /**
          * VisitChange
@@ -10360,7 +10374,7 @@ export interface components {
             name: string | null;
             /**
              * Person Id
-             * @description The account's number; null for a signature.
+             * @description The account's number; null for a signature, and for an earlier owner's, to an owner.
              */
             person_id: number | null;
             /**

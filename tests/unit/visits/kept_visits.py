@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import cast
 from zipfile import ZipFile
@@ -12,6 +11,8 @@ from zipfile import ZipFile
 from PIL import Image
 from sqlalchemy import insert
 
+from backend.calibration.types import JobSummary, Result
+from backend.core.moments import utc, utc_or_none
 from backend.core.person import Person
 from backend.store import Store
 from backend.store.bikes import bike_of_unit
@@ -25,14 +26,24 @@ from backend.visits.workbench import Workbench
 UNIT = "ebl:SP-1"
 
 
-@dataclass(frozen=True)
-class Calibration:
-    """What a visit has of a calibration job."""
+RESULT = Result("pass", expanded_nm=0.76, linearity_pct=0.25, hysteresis_pct=0.13)
 
-    id: int
-    closed_us: int | None
-    author: str = "Ada"
-    sha256: str | None = "c" * 64
+
+def calibration(number: int, closed_us: int | None, sha256: str | None = "c" * 64) -> JobSummary:
+    """A calibration of the unit; closed_us: None for one that is open."""
+    return JobSummary(
+        id=number,
+        state="fitted" if closed_us is None else "closed",
+        unit_key=UNIT,
+        bike_id=1,
+        model=None,
+        opened_at=utc(0),
+        closed_at=utc_or_none(closed_us),
+        author="Ada",
+        author_proof=None,
+        file_sha256=sha256,
+        result=RESULT,
+    )
 
 
 def visits_on(store: Store, calibrations: Sequence[ClosedCalibration] = ()) -> Visits:

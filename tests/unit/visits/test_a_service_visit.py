@@ -267,6 +267,9 @@ def test_the_owner_signs_in_the_workshop(workshop: Workshop, bike: int) -> None:
         assert [one["code"] for one in answer.json()["errors"]] == ["no_signature"]
     outside = {"content_sha256": sha256, "name": "Rita", "strokes": [[0.1, 0.2, 1.3, 0.2]]}
     assert workshop.refused("Ben", "POST", path, json=outside)[0] == 422
+    other = {"content_sha256": sha256, "name": "Olaf", "strokes": [[0.5, 0.5, 0.6, 0.6]]}
+    assert workshop.refused("Ben", "POST", path, json=other) == (409, "consented_already")
+    assert seen(workshop, visit)["consent"] == given
 
 
 def test_nobody_consents_to_what_they_have_not_seen(workshop: Workshop, bike: int) -> None:
@@ -376,8 +379,11 @@ def test_the_next_owner_sees_the_visits_without_the_names_of_the_one_before(
     visits = workshop.ask("Olaf", "GET", f"/bikes/{bike}/visits")["items"]
     assert [one["id"] for one in visits] == [by_hand["id"], by_account["id"]]
     for visit in visits:
-        assert (visit["consent"]["name"], visit["consent"]["strokes"]) == (None, [])
+        who = (visit["consent"]["name"], visit["consent"]["person_id"], visit["consent"]["strokes"])
+        assert who == (None, None, [])
         assert (visit["consent_holds"], visit["content"]["customer"]) == (True, "")
+        path, body = f"/visits/{visit['id']}/consent", {"content_sha256": visit["content_sha256"]}
+        assert workshop.refused("Olaf", "POST", path, json=body) == (409, "consented_already")
     assert workshop.refused("Rita", "GET", f"/visits/{by_hand['id']}")[0] == 404
     assert workshop.refused("Rita", "GET", f"/bikes/{bike}/visits")[0] == 404
     history = workshop.clients["Olaf"].get(f"/bikes/{bike}/history")

@@ -15,6 +15,7 @@ from typing import Any
 import pytest
 from sqlalchemy import select, update
 
+from backend.calibration.types import JobSummary
 from backend.errors import Conflict, NotFound, ObjectDamaged, SpindleError, StoreError
 from backend.rebuild import rebuild_store
 from backend.store import Store, backup_of, open_store
@@ -30,10 +31,10 @@ from tests.unit.conftest import OpenStore, urls
 from tests.unit.store.test_a_backup_is_a_store import unpacked
 from tests.unit.visits.kept_visits import (
     UNIT,
-    Calibration,
     a_bike,
     a_closed_visit,
     bike_with_unit,
+    calibration,
     files_of_visits,
     picture,
     signed,
@@ -130,22 +131,24 @@ def test_of_a_bike_so_many_visits_are_kept(store: Store, monkeypatch: pytest.Mon
 def test_calibrations_closed_during_a_visit_are_of_it(store: Store) -> None:
     bike = bike_with_unit(store)
     RevisionStore(store.database).append(UNIT, {"pedal_stop_ms": 400})
-    jobs: list[Calibration] = []
+    jobs: list[JobSummary] = []
     visits = visits_on(store, jobs)
     visit = visits.open(bike, VisitIn(), "Ben")
     opened_us = VisitStore(store).get(visit.id).opened_us
     jobs += [
-        Calibration(1, opened_us - 1),
-        Calibration(2, opened_us + 5),
-        Calibration(3, None),
-        Calibration(4, opened_us + 6, sha256=None),
+        calibration(1, opened_us - 1),
+        calibration(2, opened_us + 5),
+        calibration(3, None),
+        calibration(4, opened_us + 6, sha256=None),
     ]
 
     assert [one.id for one in visits.get(visit.id).content.calibrations] == [2]
     closed = visits.close(visit.id)
-    jobs.append(Calibration(5, opened_us + 10**12))
+    jobs.append(calibration(5, opened_us + 10**12))
     assert visits.get(visit.id).content == closed.content
-    assert [one.id for one in closed.content.calibrations] == [2]
+    [kept] = closed.content.calibrations
+    assert (kept.id, kept.sha256, kept.verdict, kept.expanded_nm) == (2, "c" * 64, "pass", 0.76)
+    assert (kept.linearity_pct, kept.hysteresis_pct) == (0.25, 0.13)
 
 
 def opened(visits: Visits, bike_id: int) -> Visit:

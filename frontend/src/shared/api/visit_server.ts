@@ -1,6 +1,7 @@
 // Service visits of bikes. Loaded with the pages that use it. Throws Refusal.
 import type { components } from '$generated/api'
 import { body, refusal, Refusal, type Http } from './client'
+import type { Ride } from './types'
 
 type Schemas = components['schemas']
 export type Visit = Schemas['Visit']
@@ -60,6 +61,13 @@ export class VisitServer {
     const consented = { content_sha256: visit.content_sha256, name, strokes }
     const request = { ...this.at(visit.id), body: consented }
     return body(this.http.POST('/api/v1/visits/{visit_id}/consent', request))
+  }
+
+  /** A bike's latest ride that is over and began between two moments; to: null for now. */
+  async lastRide(bike: number, from: string, to: string | null): Promise<Ride | null> {
+    const query = { bike, from, to, limit: 5 }
+    const { items } = await body(this.http.GET('/api/v1/rides', { params: { query } }))
+    return items.find(({ state }) => state === 'done') ?? null
   }
 
   async addPhoto(id: number, file: File): Promise<Visit> {
