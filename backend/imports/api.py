@@ -42,14 +42,16 @@ CHECKSUM_MISMATCH = 460
 # A chunk with a checksum is held in memory until it is checked; clients use 0.25 to 1 MiB.
 CHECKED_CHUNK_BYTES_MAX = 16 * 1024 * 1024
 
-OFFSETS = {
+HEADERS = {
     name: {"description": words, "schema": {"type": kind}}
     for name, words, kind in (
+        ("Location", "Of the upload; its parts are sent there.", "string"),
         ("Upload-Offset", "Bytes that have arrived.", "integer"),
         ("Upload-Length", "Bytes of the whole file.", "integer"),
         ("Upload-Expires", "Until when an unfinished upload is waited for.", "string"),
     )
 }
+OF_A_PART = {"headers": {name: HEADERS[name] for name in ("Upload-Offset", "Upload-Expires")}}
 MISMATCH: dict[int | str, dict[str, Any]] = {
     CHECKSUM_MISMATCH: {"description": "The part has not the digest it was sent with."}
 }
@@ -106,7 +108,14 @@ async def describe_uploads(request: Request) -> Response:
     )
 
 
-@router.post("/uploads", operation_id="create_upload", status_code=201, responses=MISMATCH)
+@router.post(
+    "/uploads",
+    operation_id="create_upload",
+    status_code=201,
+    response_class=Response,
+    responses=MISMATCH
+    | {201: {"headers": {"Location": HEADERS["Location"]} | OF_A_PART["headers"]}},
+)
 async def create_upload(
     request: Request,
     uploads: TheUploads,
@@ -158,7 +167,12 @@ async def create_upload(
 
 
 @router.head(
-    "/uploads/{upload_id}", operation_id="get_upload_offset", responses={200: {"headers": OFFSETS}}
+    "/uploads/{upload_id}",
+    operation_id="get_upload_offset",
+    response_class=Response,
+    responses={
+        200: {"headers": {"Upload-Length": HEADERS["Upload-Length"]} | OF_A_PART["headers"]}
+    },
 )
 async def get_upload_offset(upload_id: str, uploads: TheUploads) -> Response:
     """How many bytes have arrived: where to go on after a break."""
@@ -168,7 +182,10 @@ async def get_upload_offset(upload_id: str, uploads: TheUploads) -> Response:
 
 
 @router.patch(
-    "/uploads/{upload_id}", operation_id="append_upload", status_code=204, responses=MISMATCH
+    "/uploads/{upload_id}",
+    operation_id="append_upload",
+    status_code=204,
+    responses=MISMATCH | {204: OF_A_PART},
 )
 async def append_upload(
     upload_id: str,

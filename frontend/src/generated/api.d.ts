@@ -23160,11 +23160,15 @@ export interface operations {
             /** @description Successful Response */
             201: {
                 headers: {
+                    /** @description Of the upload; its parts are sent there. */
+                    Location?: string;
+                    /** @description Bytes that have arrived. */
+                    "Upload-Offset"?: number;
+                    /** @description Until when an unfinished upload is waited for. */
+                    "Upload-Expires"?: string;
                     [name: string]: unknown;
                 };
-                content: {
-                    "application/json": unknown;
-                };
+                content?: never;
             };
             /** @description Bad Request */
             400: {
@@ -23573,17 +23577,15 @@ export interface operations {
             /** @description Successful Response */
             200: {
                 headers: {
-                    /** @description Bytes that have arrived. */
-                    "Upload-Offset"?: number;
                     /** @description Bytes of the whole file. */
                     "Upload-Length"?: number;
+                    /** @description Bytes that have arrived. */
+                    "Upload-Offset"?: number;
                     /** @description Until when an unfinished upload is waited for. */
                     "Upload-Expires"?: string;
                     [name: string]: unknown;
                 };
-                content: {
-                    "application/json": unknown;
-                };
+                content?: never;
             };
             /** @description Bad Request */
             400: {
@@ -23687,6 +23689,10 @@ export interface operations {
             /** @description Successful Response */
             204: {
                 headers: {
+                    /** @description Bytes that have arrived. */
+                    "Upload-Offset"?: number;
+                    /** @description Until when an unfinished upload is waited for. */
+                    "Upload-Expires"?: string;
                     [name: string]: unknown;
                 };
                 content?: never;
