@@ -165,6 +165,11 @@ lock: $(STAMP)/python ## pin versions and hashes again, without registry address
 	$(BIN)/uv pip compile -q tools/bench/rivals.in --universal --generate-hashes \
 		--no-emit-index-url --no-header -o tools/bench/rivals.lock
 
+.PHONY: advisories
+advisories: $(STAMP)/python ## known flaws of what the lock files name, where the registries answer
+	$(BIN)/uv tool run pip-audit --strict --disable-pip --require-hashes -r requirements.lock -r build.lock
+	cd frontend && npm audit
+
 .PHONY: native
 native: $(STAMP)/python ## the C extension, rebuilt in place
 	$(BIN)/uv pip install -q --no-build-isolation --no-deps -e .
