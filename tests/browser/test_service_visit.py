@@ -75,7 +75,7 @@ def test_a_bike_is_taken_in_and_given_back(
     sheet.get_by_label("Job").fill("0815")
     sheet.get_by_label("Complaint").fill("No help since this afternoon")
     expect(sheet).to_contain_text("kept as you type")
-    expect(sheet).to_contain_text(re.compile(r"Before the work: read .*1 faults"))
+    expect(sheet).to_contain_text(re.compile(r"Before the work: read .*active faults: 1"))
 
     workshop.server.simulate(device, faults={"torque_sensor": "sound"})
     body = {"parameters": {"pedal_stop_ms": 210.0}, "reason": "stops late"}
