@@ -39,10 +39,10 @@ LINES_MAX = {
     "backend/visits": 2_110,
     "backend/web": 1_740,
     "firmware_protocol": 4_450,
-    "frontend": 49_030,
+    "frontend": 49_060,
     "sim_device": 21_150,
     "spindle": 700,
-    "tests": 77_690,
+    "tests": 77_770,
     "tools": 4_800,
 }
 """Lines of written code a room may have. A commit lowers a budget with what it removes; one that
