@@ -60,7 +60,7 @@ setup: $(STAMP)/native $(STAMP)/web ## install and build everything, start nothi
 test: ## every test but the longest, a real browser included
 	$(BEGIN)
 	@.ci/check-machine $(PYTHON)
-	@.ci/ensure-tools browser database proxy
+	@.ci/ensure-tools browser database proxy curl
 	@$(MAKE) $(SIDE_BY_SIDE) setup lint test-web
 	$(BIN)/pytest -m "not long" $(PARALLEL) $(WORKERS) --ignore=tests/browser --ignore=tests/board
 	$(BIN)/pytest -m "not long" $(PARALLEL) 2 tests/browser
@@ -69,7 +69,7 @@ test: ## every test but the longest, a real browser included
 .PHONY: prove
 prove: ## what takes longest, and the large counts of which `make test` does a part, in full
 	$(BEGIN)
-	@.ci/ensure-tools browser fuzzing database proxy wireshark
+	@.ci/ensure-tools browser fuzzing database proxy curl wireshark
 	@$(MAKE) $(SIDE_BY_SIDE) setup
 	$(BIN)/pytest --prove -m "large_count or long" $(PARALLEL) $(WORKERS) --ignore=tests/board
 	$(END)

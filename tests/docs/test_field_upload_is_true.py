@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import re
+import shutil
 import subprocess
 from pathlib import Path
 from urllib.parse import urlsplit
@@ -23,19 +24,35 @@ PAGE = Path(__file__).resolve().parents[2] / "docs" / "field-upload.md"
 LOGS = 50
 
 
-def run_script(folder: Path, port: int, key: str, files: list[Path]) -> str:
-    """What the page's script prints; its pauses are shorter."""
+def run_script(
+    folder: Path, port: int, key: str, files: list[Path], **environment: str
+) -> subprocess.CompletedProcess[str]:
+    """The page's script, at its end; its pauses are shorter."""
     (script,) = re.findall(r"(?s)```sh\n(.*?)```", PAGE.read_text(encoding="utf-8"))
     at = folder / "send.sh"
     at.write_text(script.replace("sleep 1", "sleep 0.02"))
     return subprocess.run(
-        ["sh", at, f"http://127.0.0.1:{port}", *files],
-        env={**os.environ, "SPINDLE_KEY": key},
+        [shutil.which("sh") or "sh", at, f"http://127.0.0.1:{port}", *files],
+        env={**os.environ, "SPINDLE_KEY": key, **environment},
         capture_output=True,
         text=True,
         check=False,
         timeout=300,
-    ).stdout
+    )
+
+
+def sent_by_script(folder: Path, port: int, key: str, files: list[Path]) -> str:
+    """What it prints, which is what became of the files."""
+    if shutil.which("curl") is None:
+        pytest.fail("curl is not installed: .ci/ensure-tools curl", pytrace=False)
+    return run_script(folder, port, key, files).stdout
+
+
+def test_without_curl_it_says_so_and_ends(tmp_path: Path) -> None:
+    done = run_script(tmp_path, 1, "sp_x", [tmp_path / "log.gpx"], PATH=str(tmp_path))
+    assert done.returncode == 127
+    assert "curl" in done.stderr
+    assert done.stdout == ""
 
 
 def test_the_field_sends_fifty_logs_over_a_bad_line(tmp_path: Path) -> None:
@@ -53,9 +70,9 @@ def test_the_field_sends_fifty_logs_over_a_bad_line(tmp_path: Path) -> None:
         made = workshop.ask("Ben", "POST", "/keys", json=body)
         line = BadLine(urlsplit(workshop.server.url).port or 0)
 
-        first = run_script(tmp_path, line.port, made["secret"], files[:30])
+        first = sent_by_script(tmp_path, line.port, made["secret"], files[:30])
         # The logger's battery was empty; it begins anew with all it has.
-        rest = run_script(tmp_path, line.port, made["secret"], [*files, damaged, no_ride])
+        rest = sent_by_script(tmp_path, line.port, made["secret"], [*files, damaged, no_ride])
 
         assert first.count('"state":"complete"') == 30
         assert rest.count('"state":"complete"') == LOGS
@@ -68,5 +85,5 @@ def test_the_field_sends_fifty_logs_over_a_bad_line(tmp_path: Path) -> None:
         assert keys[0]["used_at"] is not None
 
         workshop.ask("Ben", "DELETE", f"/keys/{made['key']['id']}")
-        assert run_script(tmp_path, line.port, made["secret"], files[:1]) == ""
+        assert sent_by_script(tmp_path, line.port, made["secret"], files[:1]) == ""
         line.close()
