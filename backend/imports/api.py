@@ -51,10 +51,16 @@ HEADERS = {
         ("Upload-Expires", "Until when an unfinished upload is waited for.", "string"),
     )
 }
-OF_A_PART = {"headers": {name: HEADERS[name] for name in ("Upload-Offset", "Upload-Expires")}}
 MISMATCH: dict[int | str, dict[str, Any]] = {
     CHECKSUM_MISMATCH: {"description": "The part has not the digest it was sent with."}
 }
+
+
+def answered_with(*names: str) -> dict[str, Any]:
+    """An answer of headers alone, for the description."""
+    return {"headers": {name: HEADERS[name] for name in names}}
+
+
 router = APIRouter(tags=["uploads"], responses=refusals(400, 404, 409, 412, 413, 415))
 TheUploads = Annotated[Uploads, provided("uploads")]
 TheRides = Annotated[Rides, provided("rides")]
@@ -113,8 +119,7 @@ async def describe_uploads(request: Request) -> Response:
     operation_id="create_upload",
     status_code=201,
     response_class=Response,
-    responses=MISMATCH
-    | {201: {"headers": {"Location": HEADERS["Location"]} | OF_A_PART["headers"]}},
+    responses=MISMATCH | {201: answered_with("Location", "Upload-Offset", "Upload-Expires")},
 )
 async def create_upload(
     request: Request,
@@ -170,9 +175,7 @@ async def create_upload(
     "/uploads/{upload_id}",
     operation_id="get_upload_offset",
     response_class=Response,
-    responses={
-        200: {"headers": {"Upload-Length": HEADERS["Upload-Length"]} | OF_A_PART["headers"]}
-    },
+    responses={200: answered_with("Upload-Length", "Upload-Offset", "Upload-Expires")},
 )
 async def get_upload_offset(upload_id: str, uploads: TheUploads) -> Response:
     """How many bytes have arrived: where to go on after a break."""
@@ -185,7 +188,7 @@ async def get_upload_offset(upload_id: str, uploads: TheUploads) -> Response:
     "/uploads/{upload_id}",
     operation_id="append_upload",
     status_code=204,
-    responses=MISMATCH | {204: OF_A_PART},
+    responses=MISMATCH | {204: answered_with("Upload-Offset", "Upload-Expires")},
 )
 async def append_upload(
     upload_id: str,

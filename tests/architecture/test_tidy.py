@@ -42,7 +42,7 @@ LINES_MAX = {
     "frontend": 49_060,
     "sim_device": 21_150,
     "spindle": 700,
-    "tests": 77_770,
+    "tests": 77_790,
     "tools": 4_800,
 }
 """Lines of written code a room may have. A commit lowers a budget with what it removes; one that
