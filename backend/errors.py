@@ -23,6 +23,7 @@ SpindleError
 │   └── NotFound             no such device, ride, upload or port
 ├── BadFile                  a log that cannot be read; says where and what could be saved
 └── StoreError               the database or the object store
+    ├── ObjectsAway          a bucket does not answer: nothing is known of what is in it
     ├── StoreFull            its disk has no room left
     └── ObjectDamaged        a file of the store is not what was written; nothing of it was sent
 """
@@ -249,6 +250,12 @@ class StoreError(SpindleError):
     """The database or the object store failed; the message names which and what was not saved."""
 
     default_code = "store"
+
+
+class ObjectsAway(StoreError):
+    """A bucket does not answer, or refuses: what is in it is not known, so nothing is missing."""
+
+    default_code = "objects_unreachable"
 
 
 class StoreFull(StoreError):

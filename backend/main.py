@@ -112,7 +112,7 @@ def open_services(
     """
     check(settings)
     with contextlib.ExitStack() as closing:
-        store = closing.enter_context(open_store(settings.db, settings.objects))
+        store = closing.enter_context(open_store(settings.db, settings.objects, settings.cache))
         units, cards = UnitStore(store.database), RideCards(store)
         audit = closed_by(closing, AuditLog(store.database))
         last_seen = closing.enter_context(contextlib.closing(LastSeen(units)))

@@ -12,10 +12,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from contextlib import ExitStack
 from dataclasses import asdict, dataclass, field
-from pathlib import PurePath, PurePosixPath
+from pathlib import Path, PurePath, PurePosixPath
 
 from backend.calibration.files import bring_back_calibration, is_calibration
-from backend.errors import StoreError
+from backend.errors import ObjectsAway, StoreError
+from backend.store.bucket import open_objects
 from backend.store.entries import Entries
 from backend.store.facts import StoredRide
 from backend.store.from_object import add_stored, damage_of, files_of, read_stored
@@ -28,7 +29,6 @@ from backend.store.objects import (
     FileObjects,
     content_key,
     free_name,
-    open_objects,
 )
 from backend.store.soundness import Soundness
 from backend.store.sql.database import Database, shown, sqlite_path
@@ -74,7 +74,7 @@ class Rebuilt:
         return asdict(self)
 
 
-def rebuild_store(db_url: str, objects_url: str) -> Rebuilt:
+def rebuild_store(db_url: str, objects_url: str, cache: Path | None = None) -> Rebuilt:
     """Bring every ride of the folder into an empty, missing or destroyed database.
 
     Repeating it adds what is not there yet. Raises StoreError when a server is running, or when the
@@ -82,9 +82,9 @@ def rebuild_store(db_url: str, objects_url: str) -> Rebuilt:
     a URL that is none.
     """
     check_url(db_url)
-    objects = open_objects(objects_url)
-    if not objects.root.is_dir():
-        raise StoreError(f"There is no folder {objects.root} to rebuild a database from.")
+    objects = open_objects(objects_url, cache)
+    if objects.is_folder and not objects.root.is_dir():
+        raise StoreError(f"There is no folder {objects.where} to rebuild a database from.")
     with saying_where():
         return rebuilt_store(db_url, objects)
 
@@ -121,6 +121,8 @@ def may_be_rebuilt(view: DatabaseView, db_url: str, objects: FileObjects) -> str
     """
     try:
         store_id = objects.identity()
+    except ObjectsAway:
+        raise
     except StoreError:
         store_id = None
     if view.state in (MISSING, EMPTY, DAMAGED):
@@ -128,8 +130,9 @@ def may_be_rebuilt(view: DatabaseView, db_url: str, objects: FileObjects) -> str
     if view.state == OK and view.identity is not None and view.identity == store_id:
         return store_id
     raise StoreError(
-        f"The database {shown(db_url)} is not empty and not of the folder {objects.root}: it was "
-        "not touched. Name a new one with SPINDLE_DB, or move this one away, and rebuild again."
+        f"The database {shown(db_url)} is not empty and not of the objects in "
+        f"{objects.where}: it was not touched. Name a new one with SPINDLE_DB, or move this one "
+        "away, and rebuild again."
     )
 
 
@@ -151,7 +154,7 @@ def set_aside(view: DatabaseView, db_url: str) -> list[str]:
 
 def mend_rows(database: Database, objects: FileObjects, report: Rebuilt) -> None:
     """Mend every ride's row that is damaged, where its object is whole."""
-    entries = Entries(database, objects, Soundness(objects.root))
+    entries = Entries(database, objects, Soundness(objects))
     entries.check_all()
     report.rides_mended, report.rides_damaged = entries.mended, tuple(sorted(entries.damaged))
 
@@ -167,6 +170,8 @@ def bring_back(
             continue
         try:
             stored.append(read_stored(objects, key))
+        except ObjectsAway:
+            raise
         except StoreError as error:
             report.not_taken[key] = error.message
     fuller = {content_key("rides", old, RIDE_SUFFIX) for ride in stored for old in ride.replaces}
@@ -206,6 +211,8 @@ def bring_back_calibrations(
             if (reason := damage_of(objects, key)) is not None:
                 raise StoreError(f"{key} is no whole calibration: {reason}.")
             report.calibrations += bring_back_calibration(database, objects, key)
+        except ObjectsAway:
+            raise
         except StoreError as error:
             report.not_taken[key] = error.message
     for key in objects.visit_keys():
@@ -213,11 +220,15 @@ def bring_back_calibrations(
             continue
         try:
             report.visits += bring_back_visit(database, objects, objects.read_json(key) or {})
+        except ObjectsAway:
+            raise
         except StoreError as error:
             report.stay[key] = error.message
     for key in objects.calibrating_keys():
         try:
             report.calibrations_open += bring_back_calibration(database, objects, key)
+        except ObjectsAway:
+            raise
         except StoreError as error:
             report.stay[key] = error.message
 

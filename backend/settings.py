@@ -88,6 +88,11 @@ class Settings:
     calibration_limits: tuple[Any, ...]
 
     @property
+    def cache(self) -> Path:
+        """Folder for copies of a bucket's objects."""
+        return self.data / "bucket"
+
+    @property
     def is_loopback(self) -> bool:
         """Whether only this machine can reach the server."""
         return is_of_this_machine(self.host)

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from backend.cli.client import print_json
-from backend.cli.store import urls
+from backend.cli.store import places
 from backend.errors import InvalidRequest
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ def verify(options: Namespace) -> int:
     expected = options.expect
     if expected is not None and not SHA256.fullmatch(expected):
         raise InvalidRequest("--expect takes a SHA-256: 64 digits from 0 to f.")
-    check = verify_audit(urls(options)[0], expected)
+    check = verify_audit(places(options)[0], expected)
     is_fine = check.misfit is None and (expected is None or check.expected_id is not None)
     if options.json:
         print_json({"ok": is_fine, **asdict(check)})

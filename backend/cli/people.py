@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from backend.cli.client import print_json, print_table
-from backend.cli.store import as_command, urls
+from backend.cli.store import as_command, places
 from backend.core.person import ROLES, Person, folded
 from backend.errors import InvalidRequest, NotFound
 
@@ -108,7 +108,7 @@ def opened(options: Namespace) -> Iterator[Accounts]:
     from backend.people.service import PeopleService
     from backend.store import open_store
 
-    with as_command(), open_store(*urls(options)) as store:
+    with as_command(), open_store(*places(options)) as store:
         yield PeopleService(store.database).accounts
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from argparse import Namespace
 from contextlib import AbstractContextManager
+from pathlib import Path
 from typing import Any
 
 from backend.cli.client import print_json, text_of
@@ -12,12 +13,12 @@ from backend.cli.client import print_json, text_of
 SHOWN_MAX = 20
 
 
-def urls(options: Namespace) -> tuple[str, str]:
-    """Database and objects as the server would find them."""
+def places(options: Namespace) -> tuple[str, str, Path]:
+    """Database, objects and their copies as the server would find them."""
     from backend.settings import load
 
     settings = load({"data": options.data})
-    return settings.db, settings.objects
+    return settings.db, settings.objects, settings.cache
 
 
 def as_command() -> AbstractContextManager[None]:
@@ -32,7 +33,7 @@ def check(options: Namespace) -> int:
     """Says what is in database and folder; 1 if anything is wrong."""
     from backend.store.upkeep.check import check_store
 
-    result = check_store(*urls(options))
+    result = check_store(*places(options))
     if options.json:
         print_json(result.as_json())
     else:
@@ -85,7 +86,7 @@ def rebuild(options: Namespace) -> int:
     from backend.rebuild import rebuild_store, report_lines
 
     with as_command():
-        report = rebuild_store(*urls(options))
+        report = rebuild_store(*places(options))
     if options.json:
         print_json(report.as_json())
     else:

@@ -27,6 +27,8 @@ HealthCode = Literal[
     "queue_full",
     "database_unreachable",
     "database_damaged",
+    "objects_unreachable",
+    "objects_refused",
     "rows_lost",
     "rows_missing_machine",
     "rows_missing_line",

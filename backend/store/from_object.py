@@ -9,13 +9,12 @@ import re
 import secrets
 import time
 from collections.abc import Iterable
-from contextlib import suppress
 from dataclasses import replace
-from pathlib import Path, PurePosixPath
+from pathlib import PurePosixPath
 
 from sqlalchemy import Connection, delete, insert, select, update
 
-from backend.errors import StoreError
+from backend.errors import ObjectsAway, StoreError
 from backend.store.bikes import whose_ride
 from backend.store.deletion import FILLED, MADE, join_source
 from backend.store.digest import digest
@@ -54,6 +53,8 @@ def damage_of(objects: FileObjects, key: str) -> str | None:
             objects.read_json(key)
         elif file_sha256(objects.local_path(key)) != PurePosixPath(key).name.split(".")[0]:
             return "its bytes do not hash to its name"
+    except ObjectsAway:
+        raise
     except (OSError, StoreError) as error:
         return error.message if isinstance(error, StoreError) else str(error)
     return None
@@ -72,8 +73,12 @@ def read_stored(objects: FileObjects, key: str) -> StoredRide:
     if (reason := damage_of(objects, key)) is not None:
         raise StoreError(f"{key} is no whole ride: {reason}.")
     facts, channels, row_count = read_facts(objects.local_path(key))
-    with suppress(StoreError, *NOT_AS_WRITTEN):
+    try:
         return stored_ride(facts, read_sidecar(objects, key), channels, row_count, key)
+    except ObjectsAway:
+        raise
+    except (StoreError, *NOT_AS_WRITTEN):
+        pass
     try:
         stored = stored_ride(facts, {}, channels, row_count, key)
     except NOT_AS_WRITTEN as error:
@@ -158,8 +163,8 @@ def upload_of(
     if existing is not None:
         return int(existing)
     key = content_key("originals", file.sha256)
-    path = objects.root / key
-    size, created_us = arrived(path)
+    found = objects.arrived(key)
+    size = 0 if found is None else found.size_bytes
     values = {
         "token": secrets.token_hex(16),
         "name": file.name,
@@ -170,20 +175,11 @@ def upload_of(
         "code": None if filled is None else "filled",
         "completeness": completeness,
         "duplicate_of": filled,
-        "object_key": key if path.is_file() else None,
-        "created_us": created_us,
+        "object_key": None if found is None else key,
+        "created_us": time.time_ns() // 1000 if found is None else found.written_us,
         "part_of": None
         if file.container is None
         else upload_of(connection, objects, file.container, "complete", None),
     }
     added = insert(t.upload).values(values).returning(t.upload.c.id)
     return int(connection.execute(added).scalar_one())
-
-
-def arrived(path: Path) -> tuple[int, int]:
-    """Size of an original and when it was written; nothing and now when it is gone."""
-    try:
-        status = path.stat()
-    except OSError:
-        return 0, time.time_ns() // 1000
-    return status.st_size, status.st_mtime_ns // 1000

@@ -37,6 +37,8 @@ IO_ERROR = "io_error"
 QUEUE_FULL = "queue_full"
 UNREACHABLE = "database_unreachable"
 DAMAGED = "database_damaged"
+BUCKET_UNREACHABLE = "objects_unreachable"
+BUCKET_REFUSES = "objects_refused"
 WORDS = {
     DISK_FULL: "no space is left on its disk. Free some",
     READ_ONLY: "it may only be read. Give this user the right to write there",
@@ -44,6 +46,9 @@ WORDS = {
     QUEUE_FULL: "its disk is slower than the rows that come. Look for what else uses it",
     DAMAGED: "its file is damaged. Stop the server; `spindle store check` tells how much, and "
     "`spindle store rebuild` brings every ride back",
+    BUCKET_UNREACHABLE: "its server does not answer as it should. It is tried again",
+    BUCKET_REFUSES: "it refuses the keys of access, or is not there. Look at AWS_ACCESS_KEY_ID, "
+    "AWS_SECRET_ACCESS_KEY and SPINDLE_OBJECTS",
     UNREACHABLE: "it does not answer. Look whether its server runs",
 }
 

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from sqlalchemy import Connection, delete, insert, select, update
 
 from backend.core.audit import Action, AuditEntry, Members
-from backend.errors import StoreError
+from backend.errors import ObjectsAway, StoreError
 from backend.store import audit
 from backend.store.inspect_schema import DAMAGED, FOREIGN, DatabaseView
 from backend.store.objects import FileObjects
@@ -50,6 +50,8 @@ def belonging(view: DatabaseView, objects: FileObjects) -> Belonging:
     """Judge a database and a folder; reads only."""
     try:
         folder_id = objects.identity()
+    except ObjectsAway:
+        raise
     except StoreError as error:
         return Belonging(None, reason=error.message.rstrip("."))
     if view.state == DAMAGED:
@@ -84,7 +86,7 @@ def require(state: Belonging, database: str, objects: FileObjects) -> str:
     """The store's id. Raises StoreError with what to do when the two are not one store."""
     if state.store_id is None:
         raise StoreError(
-            f"The database {database} does not belong to the objects in {objects.root}: "
+            f"The database {database} does not belong to the objects in {objects.where}: "
             f"{state.reason}. {WAYS_OUT}"
         )
     return state.store_id

@@ -23,17 +23,17 @@ import secrets
 import threading
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager, suppress
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
-from urllib.parse import urlsplit
-from urllib.request import url2pathname
 
 from backend.errors import StoreError
 from backend.store.health import WriteWatch, write_a_little
 
 STAGING = ".staging"
 STAGED_NAME = re.compile(r"[0-9a-f]{16}")
-KINDS = ("rides", "originals", "calibrations")
+CALIBRATIONS = "calibrations"
+KINDS = ("rides", "originals", CALIBRATIONS)
 LOST_FOUND = "lost+found"
 # What owners said of tables: small files that no database names.
 TABLES = "tables"
@@ -77,6 +77,14 @@ class Disk:
 PART = "objects"
 
 
+@dataclass(frozen=True)
+class Arrived:
+    """How large an object is, and when it was written."""
+
+    size_bytes: int
+    written_us: int
+
+
 class Objects(Protocol):
     """What the store needs of an object store, whatever its URL."""
 
@@ -86,6 +94,9 @@ class Objects(Protocol):
     def publish(self, staged: Path, key: str) -> None: ...
     def publish_json(self, key: str, body: Mapping[str, object]) -> None: ...
     def read_json(self, key: str) -> dict[str, Any] | None: ...
+    def find(self, key: str) -> Path | None: ...
+    def here(self, key: str) -> Path | None: ...
+    def arrived(self, key: str) -> Arrived | None: ...
     def local_path(self, key: str) -> Path: ...
     def remove(self, key: str) -> None: ...
     def holding(self) -> AbstractContextManager[None]: ...
@@ -98,10 +109,17 @@ class Objects(Protocol):
 
 
 class FileObjects:
-    """Objects as files under a folder (`file:///...`). Makes nothing before `prepare`."""
+    """Objects as files under a folder (`file:///...`). Makes nothing before `prepare`.
+
+    root: the folder. where: the objects' place in messages. is_folder: whether they are on a disk
+    of this machine, which may rot.
+    """
+
+    is_folder = True
 
     def __init__(self, root: Path, disk: Disk | None = None) -> None:
         self.root = root
+        self.where = str(root)
         self.disk = disk or Disk()
         # Told of every write to this folder; the database of the same store shares it.
         self.watch = WriteWatch()
@@ -145,20 +163,34 @@ class FileObjects:
     def read_json(self, key: str) -> dict[str, Any] | None:
         """A small JSON object, None when it is absent. Raises StoreError when it is damaged."""
         try:
-            body = json.loads((self.root / key).read_text(encoding="utf-8"))
+            text = (self.root / key).read_bytes()
         except FileNotFoundError:
             return None
-        except (OSError, ValueError, RecursionError) as error:
+        except OSError as error:
             raise StoreError(f"{self.root / key} cannot be read: {error}.") from error
-        if not isinstance(body, dict):
-            raise StoreError(f"{self.root / key} cannot be read: it is no JSON object.")
-        return body
+        return json_object(text, str(self.root / key))
+
+    def find(self, key: str) -> Path | None:
+        """Where the object is, if it is there; None where that is known. Raises StoreError."""
+        return self.root / key
+
+    def here(self, key: str) -> Path | None:
+        """As `find`, of what is on this machine: None where another has to be asked."""
+        return self.root / key
+
+    def arrived(self, key: str) -> Arrived | None:
+        """Size and age of an object, None when there is none. Raises StoreError."""
+        try:
+            status = (self.root / key).stat()
+        except OSError:
+            return None
+        return Arrived(status.st_size, status.st_mtime_ns // 1000)
 
     def local_path(self, key: str) -> Path:
         """Where the object can be read. Raises StoreError when it is not there."""
-        path = self.root / key
-        if not path.is_file():
-            raise StoreError(f"The object {key} is missing from {self.root}.")
+        path = self.find(key)
+        if path is None or not path.is_file():
+            raise StoreError(f"The object {key} is missing from {self.where}.")
         return path
 
     def remove(self, key: str) -> None:
@@ -186,6 +218,11 @@ class FileObjects:
         """Do what removes objects, and give its answer; False and nothing while one is held."""
         with self._turn:
             return self._holders == 0 and work()
+
+    def size_bytes(self) -> int:
+        """Of every object together."""
+        found = (self.arrived(key) for key in self.keys())
+        return sum(one.size_bytes for one in found if one is not None)
 
     def keys(self) -> Iterator[str]:
         """Every object's key, sidecars too."""
@@ -227,7 +264,7 @@ class FileObjects:
         identity = body.get("id")
         if not isinstance(identity, str) or not IDENTITY_ID.fullmatch(identity):
             raise StoreError(
-                f"{self.root / IDENTITY} holds no identity. Without that file a database that "
+                f"{IDENTITY} in {self.where} holds no identity. Without that file a database that "
                 "knows every object of the folder is taken again."
             )
         return identity
@@ -261,12 +298,15 @@ class FileObjects:
                     yield path.relative_to(self.root).as_posix()
 
 
-def open_objects(url: str, disk: Disk | None = None) -> FileObjects:
-    """The object store of a URL. Raises StoreError for a kind that is not there yet."""
-    parts = urlsplit(url)
-    if parts.scheme != "file":
-        raise StoreError(f"Objects at {parts.scheme}:// are not available: use file:///folder.")
-    return FileObjects(Path(url2pathname(parts.path)), disk)
+def json_object(text: bytes, place: str) -> dict[str, Any]:
+    """A JSON object. Raises StoreError, which names its place."""
+    try:
+        body = json.loads(text.decode())
+    except (ValueError, RecursionError) as error:
+        raise StoreError(f"{place} cannot be read: {error}.") from error
+    if not isinstance(body, dict):
+        raise StoreError(f"{place} cannot be read: it is no JSON object.")
+    return body
 
 
 def content_key(kind: str, sha256: str, suffix: str = "") -> str:

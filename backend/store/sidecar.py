@@ -15,7 +15,7 @@ from typing import Any
 
 from sqlalchemy import Connection, select
 
-from backend.errors import StoreError
+from backend.errors import ObjectsAway, StoreError
 from backend.store.facts import WORDS
 from backend.store.objects import Objects, sidecar_key
 from backend.store.ride_table import tags_of
@@ -57,6 +57,8 @@ def write_sidecar(
     """Write what a person wrote; what else is there stays. Raises StoreError."""
     try:
         body = read_sidecar(objects, ride_key)
+    except ObjectsAway:
+        raise
     except StoreError as error:
         LOG.warning("%s It is written anew.", error.message)
         body = {}

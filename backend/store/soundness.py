@@ -20,6 +20,7 @@ from typing import BinaryIO
 
 from backend.core.ride import BAD, Ride
 from backend.errors import Conflict, ObjectDamaged
+from backend.store.objects import Objects
 
 LOG = logging.getLogger(__name__)
 
@@ -57,10 +58,11 @@ class Expected:
 
 
 class Soundness:
-    """What is known of the objects under a folder; safe to ask from any thread."""
+    """What is known of the objects; safe to ask from any thread. What an object store that does not
+    answer raises, StoreError, says nothing of an object."""
 
-    def __init__(self, root: Path) -> None:
-        self._root = root
+    def __init__(self, objects: Objects) -> None:
+        self._objects = objects
         self._verdicts: dict[str, tuple[Signature, str | None]] = {}
         self._lock = threading.Lock()
         self._waiting: deque[Expected] = deque()
@@ -78,8 +80,11 @@ class Soundness:
 
     def opened(self, expected: Expected) -> tuple[BinaryIO | None, str | None]:
         """The object's file, every byte of it verified, at its start; or what is wrong with it."""
+        path = self._objects.find(expected.key)
+        if path is None:
+            return None, MISSING
         try:
-            file = (self._root / expected.key).open("rb")
+            file = path.open("rb")
         except FileNotFoundError:
             return None, MISSING
         except OSError:
@@ -140,8 +145,11 @@ class Soundness:
         self.damaged = {one.key: damage for one in present if (damage := self.damage(one))}
 
     def _damage(self, expected: Expected, read: bool) -> str | None:
+        path = (self._objects.find if read else self._objects.here)(expected.key)
+        if path is None:
+            return MISSING if read else None
         try:
-            signature = signature_of((self._root / expected.key).stat())
+            signature = signature_of(path.stat())
         except FileNotFoundError:
             return MISSING
         except OSError:
@@ -181,7 +189,7 @@ class Soundness:
             before = self._verdicts.get(key)
             self._verdicts[key] = (signature, damage)
         if damage is not None and (before is None or before[1] != damage):
-            LOG.error("The object %s is damaged: %s.", self._root / key, WORDS[damage])
+            LOG.error("The object %s is damaged: %s.", key, WORDS[damage])
 
 
 def signature_of(status: os.stat_result) -> Signature:

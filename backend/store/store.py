@@ -10,10 +10,12 @@ import threading
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from functools import partial
+from pathlib import Path
 from types import TracebackType
 
 from backend.core.ride import Ride, iso_utc
 from backend.errors import StoreError
+from backend.store.bucket import open_objects
 from backend.store.deletion import SPOOL, Deletions
 from backend.store.discard import expected_objects, named_keys
 from backend.store.entries import Entries
@@ -24,7 +26,7 @@ from backend.store.locks import hold
 from backend.store.logbook.book import Logbook
 from backend.store.logbook.derived import CardStore, ZeroStore
 from backend.store.marks import MarkStore
-from backend.store.objects import LOST_FOUND, Disk, FileObjects, open_objects
+from backend.store.objects import LOST_FOUND, Disk, FileObjects
 from backend.store.rides import Orphan, RideStore
 from backend.store.soundness import Soundness
 from backend.store.sql.advisory import fence
@@ -52,7 +54,7 @@ class Store:
         self.objects = objects
         self.server_id = server_id
         self.deletions = Deletions(database, objects)
-        self.soundness = Soundness(objects.root)
+        self.soundness = Soundness(objects)
         self.entries = Entries(database, objects, self.soundness)
         self.rides = RideStore(
             database, objects, self.deletions, self.soundness, self.entries, server_id
@@ -116,7 +118,8 @@ class Store:
         self.entries.check_next(now_us)
         # What is worked out of their objects is due again.
         self.rides.finishes += self.entries.mended - mended
-        self.soundness.scrub(now_us, lambda: self.database.read(expected_objects))
+        if self.objects.is_folder:
+            self.soundness.scrub(now_us, lambda: self.database.read(expected_objects))
 
     def close(self) -> None:
         """Finish what is being written and let go of database and folder."""
@@ -151,7 +154,7 @@ class Store:
                 "%d files were not known to the database and are now in %s: if there are rides "
                 "among them, this may be an older copy of the database.",
                 len(unknown),
-                self.objects.root / LOST_FOUND,
+                f"{self.objects.where}/{LOST_FOUND}",
             )
 
 
@@ -167,16 +170,18 @@ def log_orphan(orphan: Orphan, ride: Ride) -> None:
         )
 
 
-def open_store(db_url: str, objects_url: str, disk: Disk | None = None) -> Store:
+def open_store(
+    db_url: str, objects_url: str, cache: Path | None = None, *, disk: Disk | None = None
+) -> Store:
     """Open the store and finish what a crash left behind.
 
-    db_url: `sqlite:///path` or `postgresql+psycopg://...`. objects_url: `file:///folder`.
-    disk: the disk's steps, for tests. Raises InvalidRequest for a database's url that cannot be
-    used; StoreError, and then nothing was changed if the two do not belong together or another
-    server has them.
+    db_url: `sqlite:///path` or `postgresql+psycopg://...`. objects_url: `file:///folder`
+    or `s3://bucket/prefix`, of which copies are in the folder `cache`. disk: the disk's steps, for
+    tests. Raises InvalidRequest for a URL that cannot be used; StoreError, and then nothing was
+    changed if the two do not belong together or another server has them.
     """
     check_url(db_url)
-    objects = open_objects(objects_url, disk)
+    objects = open_objects(objects_url, cache, disk)
     with saying_where():
         return opened_store(db_url, objects)
 

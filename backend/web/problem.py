@@ -154,6 +154,7 @@ STATUS_OF: dict[type[errors.SpindleError], int] = {
     errors.NotFound: 404,
     errors.BadFile: 422,
     errors.StoreError: 500,
+    errors.ObjectsAway: 503,
     errors.StoreFull: 507,
     errors.ObjectDamaged: 500,
 }

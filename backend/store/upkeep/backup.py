@@ -24,7 +24,7 @@ from sqlalchemy import func, select
 
 from backend.core.described import described
 from backend.core.ride import iso_utc
-from backend.errors import StoreError
+from backend.errors import ObjectsAway, StoreError
 from backend.store.inspect_schema import inspect_database
 from backend.store.objects import IDENTITY, READ_BYTES, RIDE_SUFFIX, sidecar_key
 from backend.store.pipe import Pipe
@@ -45,13 +45,13 @@ class StorePlace:
     database: str
     """Its URL, without a password."""
     folder: str
-    """Of rides and originals, on the server's machine."""
+    """Of rides and originals: a folder of the server's machine, or a bucket."""
     rides: int
     database_bytes: int | None
     """Null where a database server keeps it."""
     object_bytes: int
-    free_bytes: int
-    """On the disk of the folder."""
+    free_bytes: int | None
+    """On the disk of the folder; null for a bucket."""
 
 
 def place_of(store: Store) -> StorePlace:
@@ -60,15 +60,14 @@ def place_of(store: Store) -> StorePlace:
     path = sqlite_path(url)
     root = store.objects.root
     files = [path, path.with_name(f"{path.name}-wal")] if path else []
-    keys = store.objects.keys()
     rides = select(func.count()).select_from(t.ride)
     return StorePlace(
         database=shown(url),
-        folder=str(root),
+        folder=store.objects.where,
         rides=int(store.database.read(lambda c: c.execute(rides).scalar_one())),
         database_bytes=sum(map(size_of, files)) if path else None,
-        object_bytes=sum(size_of(root / key) for key in keys),
-        free_bytes=shutil.disk_usage(root).free,
+        object_bytes=store.objects.size_bytes(),
+        free_bytes=shutil.disk_usage(root).free if store.objects.is_folder else None,
     )
 
 
@@ -138,6 +137,8 @@ def added_objects(
     for key in [IDENTITY, *keys, *companions]:
         try:
             file = store.objects.local_path(key)
+        except ObjectsAway:
+            raise
         except StoreError:
             missing += [key] if key in keys else []
             continue

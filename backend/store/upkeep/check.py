@@ -9,11 +9,13 @@ from __future__ import annotations
 import time
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
+from pathlib import Path
 
 from sqlalchemy import select
 
 from backend.core.ride import iso_utc
-from backend.errors import StoreError
+from backend.errors import ObjectsAway, StoreError
+from backend.store.bucket import open_objects
 from backend.store.entries import ROWS_AT_ONCE
 from backend.store.from_object import damage_of
 from backend.store.identity import belonging
@@ -24,7 +26,7 @@ from backend.store.inspect_schema import (
     inspect_database,
     reading_engine,
 )
-from backend.store.objects import FileObjects, open_objects
+from backend.store.objects import FileObjects
 from backend.store.ride_table import damaged_rows
 from backend.store.sql import tables as t
 from backend.store.sql.database import HEAD_REVISION, current_revision, shown, sqlite_path
@@ -100,7 +102,7 @@ class StoreCheck:
         }
 
 
-def check_store(db_url: str, objects_url: str) -> StoreCheck:
+def check_store(db_url: str, objects_url: str, cache: Path | None = None) -> StoreCheck:
     """Look at everything.
 
     Raises StoreError when the database's server cannot be reached or a file may not be read,
@@ -108,7 +110,7 @@ def check_store(db_url: str, objects_url: str) -> StoreCheck:
     """
     check_url(db_url)
     with saying_where():
-        return checked(db_url, open_objects(objects_url))
+        return checked(db_url, open_objects(objects_url, cache))
 
 
 def checked(db_url: str, objects: FileObjects) -> StoreCheck:
@@ -116,6 +118,8 @@ def checked(db_url: str, objects: FileObjects) -> StoreCheck:
     view = inspect_database(db_url, check_contents=True)
     try:
         folder_id = objects.identity()
+    except ObjectsAway:
+        raise
     except StoreError:
         folder_id = None
     keys = set(objects.keys())
@@ -130,7 +134,7 @@ def checked(db_url: str, objects: FileObjects) -> StoreCheck:
     return StoreCheck(
         database_url=shown(db_url),
         database=view,
-        folder=str(objects.root),
+        folder=objects.where,
         folder_id=folder_id,
         reason=belonging(view, objects).reason,
         sound=sound,

@@ -64,7 +64,7 @@ class Bench:
         self.files = 0
 
     def opened(self, disk: Disk | None = None) -> Store:
-        return open_store(f"sqlite:///{self.folder}/db", f"file://{self.folder}/objects", disk)
+        return open_store(f"sqlite:///{self.folder}/db", f"file://{self.folder}/objects", disk=disk)
 
     def uploads_of(self, store: Store) -> Uploads:
         def read(path: Path, name: str) -> Outcome:
