@@ -359,7 +359,8 @@ def upkeep(
 ) -> contextlib.AbstractContextManager[None]:
     """What is done beside the server: tidying up, and what is kept of each ride."""
     return every_second(
-        housekeeping=partial(tidy, recorder, uploads, store, last_seen, devices),
+        recording=partial(tidy_rides, recorder, last_seen, devices),
+        housekeeping=partial(tidy_store, uploads, store),
         figures=RideFigures(store).tick,
         cards=cards.tick,
         audit=audit.catch_up,
@@ -368,21 +369,23 @@ def upkeep(
     )
 
 
-def tidy(
-    recorder: Recorder,
-    uploads: Uploads,
-    store: Store,
-    last_seen: LastSeen,
-    devices: Devices,
-) -> None:
-    """Ends what has been silent too long; fills rides that are over; removes what has expired."""
+def tidy_rides(recorder: Recorder, last_seen: LastSeen, devices: Devices) -> None:
+    """Ends what has been silent too long; notes which units are here."""
+    now_us = time.time_ns() // 1000
+    recorder.tick(now_us)
+    last_seen.update(devices.list(), now_us)
+
+
+def tidy_store(uploads: Uploads, store: Store) -> None:
+    """Tries again what the store refused; fills rides that are over; removes what has expired.
+
+    Beside `tidy_rides`, as a bucket that does not answer is waited for.
+    """
     now_us = time.time_ns() // 1000
     store.try_again()
-    recorder.tick(now_us)
-    uploads.retry_waiting()
+    uploads.retry_waiting(now_us)
     store.sweep(now_us)
     store.scrub(now_us)
-    last_seen.update(devices.list(), now_us)
 
 
 def in_background(name: str, work: Callable[[], object]) -> None:

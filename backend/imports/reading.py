@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 
-from backend.errors import Conflict, NotFound, SpindleError
+from backend.errors import Conflict, NotFound, SpindleError, StoreError
 from backend.formats import ReadingStopped
 from backend.store import Upload
 
@@ -22,6 +22,8 @@ LOG = logging.getLogger(__name__)
 # The lanes, and how many read at once in each: child processes that may take half a gigabyte.
 QUICK, SLOW, UNPACKING = "quick", "slow", "unpacking"
 AT_ONCE = {QUICK: 2, SLOW: 1, UNPACKING: 1}
+# How often uploads that the store refused to work on are begun again.
+AGAIN_S = 10.0
 
 
 class GoesElsewhere(Exception):
@@ -52,6 +54,8 @@ class Lanes:
         self._tasks: dict[str, tuple[Future[None], str]] = {}
         self._closed = False
         self._logged: set[str] = set()
+        self._refused: set[str] = set()
+        self._again_us = 0
 
     def begin(self, upload_id: str, prepare: Callable[[str], object]) -> Future[Upload]:
         """Read an upload in its turn; the promise of what becomes of it, which nobody can cancel.
@@ -71,6 +75,19 @@ class Lanes:
         else:
             self._submit(upload_id, promise, QUICK)
         return promise
+
+    def take_refused(self, now_us: int) -> set[str]:
+        """Uploads that the store refused to work on and that are to be begun again now.
+
+        now_us: Unix time.
+        """
+        later_us = now_us + round(AGAIN_S * 1e6)
+        with self._lock:
+            # What is due later than that was noted before the clock was set back.
+            if now_us < self._again_us <= later_us:
+                return set()
+            refused, self._refused, self._again_us = self._refused, set(), later_us
+            return refused
 
     @contextmanager
     def idle(self, upload_id: str) -> Iterator[None]:
@@ -153,6 +170,9 @@ class Lanes:
             self._logged.add(sentence)
             fault = None if isinstance(error, SpindleError) else error
             LOG.warning("%s", sentence, exc_info=fault)
+        if isinstance(error, StoreError):
+            with self._lock:
+                self._refused.add(upload_id)
         if self._end(upload_id):
             promise.set_exception(error)
 

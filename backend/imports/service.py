@@ -270,13 +270,15 @@ class Uploads:
         promises = [self._submit(upload.id) for upload in self._store.uploads.waiting()]
         return [promise.result() for promise in promises if promise.exception() is None]
 
-    def retry_waiting(self) -> Sequence[Future[Upload]]:
-        """Have the files looked at that waited for a ride that is over now; does not wait."""
+    def retry_waiting(self, now_us: int) -> Sequence[Future[Upload]]:
+        """Have the files looked at that waited for a ride that is over now, or for the store to
+        take them again; does not wait. now_us: Unix time."""
+        refused = self._lanes.take_refused(now_us)
         live = set(self._store.rides.live_ids())
         return [
             self._submit(upload.id)
             for upload in self._store.uploads.waiting()
-            if upload.code == WAITS and upload.duplicate_of not in live
+            if upload.id in refused or (upload.code == WAITS and upload.duplicate_of not in live)
         ]
 
     def _submit(self, upload_id: str) -> Future[Upload]:
@@ -300,7 +302,7 @@ class Uploads:
         if holds_files:
             return self._unpacked(upload, path, lane)
         outcome = self._read(upload, path, lane)
-        # Where this fails the original is kept and the upload waits for the next start.
+        # Where this fails the original is kept and the upload is read again.
         with self._store.deciding:
             # The same bytes may have become a ride while these were read.
             if (twin := self._twin(upload)) is not None:

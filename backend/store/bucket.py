@@ -36,6 +36,7 @@ from backend.store.objects import (
     PART,
     READ_BYTES,
     SIDECAR_SUFFIX,
+    VISITS,
     Arrived,
     Disk,
     FileObjects,
@@ -315,7 +316,8 @@ class BucketObjects(FileObjects):
             return
         try:
             copies = []
-            for path in (found for kind in KINDS for found in (self.root / kind).rglob("*")):
+            folders = (self.root / kind for kind in (*KINDS, VISITS))
+            for path in (found for folder in folders for found in folder.rglob("*")):
                 with suppress(OSError):
                     if path.is_file():
                         status = path.stat()

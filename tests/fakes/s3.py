@@ -15,6 +15,9 @@ from typing import Any
 
 import httpx
 import pytest
+from pyarrow.fs import FileSelector, S3FileSystem
+
+from backend.store.bucket import bucket_place
 
 PATIENCE_S = 60.0
 # Moto looks at no signature; the client must have something to sign with.
@@ -57,6 +60,23 @@ class S3Server:
             return httpx.get(f"{self.url}/moto-api/data.json", trust_env=False).is_success
         except httpx.TransportError:
             return False
+
+
+def keys_in(server: S3Server, url: str) -> set[str]:
+    """What is in a bucket below its prefix, by another connection than the store's."""
+    place = bucket_place(url)
+    s3 = S3FileSystem(endpoint_override=server.url.removeprefix("http://"), scheme="http")
+    base = f"{place.bucket}/{place.prefix}"
+    found = s3.get_file_info(FileSelector(base.rstrip("/"), recursive=True, allow_not_found=True))
+    return {one.path.removeprefix(base) for one in found if one.is_file}
+
+
+class QuietServer(ThreadingHTTPServer):
+    """A client or a server that was killed is what is looked at, no fault of the gate."""
+
+    def handle_error(self, request: Any, client_address: Any) -> None:
+        if not isinstance(sys.exception(), ConnectionError):
+            super().handle_error(request, client_address)
 
 
 OF_A_CONNECTION = {"content-length", "transfer-encoding", "connection", "expect"}
@@ -127,7 +147,7 @@ class Gate:
             def log_message(self, format: str, *words: object) -> None:
                 pass
 
-        self._server = ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+        self._server = QuietServer(("127.0.0.1", 0), Handler)
         self.url = f"http://127.0.0.1:{self._server.server_address[1]}"
         threading.Thread(target=self._server.serve_forever, daemon=True).start()
 

@@ -214,9 +214,9 @@ def test_housekeeping_does_not_wait_for_the_files_it_has_looked_at(store: Store)
     store.uploads.conclude(upload_id, Verdict("queued", WAITS))
     uploads = Uploads(store, reader=reader)
 
-    (looking,) = uploads.retry_waiting()
+    (looking,) = uploads.retry_waiting(1)
     assert reader.begun.acquire(timeout=30)
-    (again,) = uploads.retry_waiting()
+    (again,) = uploads.retry_waiting(1)
     waits = not looking.done()
     reader.let_go.set()
 

@@ -290,12 +290,12 @@ def test_a_log_that_comes_before_its_ride_is_over_fills_it_afterwards(bench: Ben
     feed(recorder, truth[:2_500], 0, (1_000, 2_000))
     code, ride_id = bench.fetch(log_of(truth[:2_400]))
     assert code == "ride_is_live"
-    bench.uploads.retry_waiting()
+    bench.uploads.retry_waiting(WALL_US)
     assert ride_id is not None
     assert bench.store.rides.get(ride_id).state == "live"
 
     recorder.close()
-    for looking in bench.uploads.retry_waiting():
+    for looking in bench.uploads.retry_waiting(WALL_US):
         looking.result(30)
 
     assert sum(span.rows_filled for span in bench.store.rides.get(ride_id).filled) == 100

@@ -19,6 +19,7 @@ import pytest
 
 from backend.imports.service import Uploads
 from backend.store import open_store
+from tests.fakes.failing_disk import FailingDisk
 from tests.fakes.fit_file import commute, fit_file
 from tests.fakes.uploading import TUS, UploadDesk, checksum, described, read_here
 
@@ -172,6 +173,23 @@ def test_after_any_fault_the_file_is_kept_byte_for_byte(
     verdict = bench.finish(address)
 
     assert (verdict["state"], verdict["code"]) == ("complete", None)
+    assert bench.kept() == [RIDE]
+    assert len(bench.store.rides.list().items) == 1
+
+
+@pytest.mark.parametrize("step", range(1, 11))
+def test_a_disk_that_fails_on_the_way_from_file_to_ride_delays_it(bench: Bench, step: int) -> None:
+    """The client, who was answered 507, may be gone; no new start is needed."""
+    address = bench.begin()
+    bench.store.objects.disk = failing = FailingDisk(step)
+    assert bench.send(address, 0, RIDE) == 507
+    assert failing.left == 0
+    assert bench.verdict(address)["state"] in ("receiving", "queued")
+
+    for reading in bench.uploads.retry_waiting(1):
+        reading.result(30)
+
+    assert bench.verdict(address)["state"] == "complete"
     assert bench.kept() == [RIDE]
     assert len(bench.store.rides.list().items) == 1
 

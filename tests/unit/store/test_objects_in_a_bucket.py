@@ -12,7 +12,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from pyarrow.fs import FileSelector, S3FileSystem
 
 from backend.core.ride import RideContext
 from backend.errors import InvalidRequest, ObjectsAway, StoreError
@@ -22,7 +21,7 @@ from backend.store.bucket import BucketObjects, bucket_place
 from backend.store.objects import content_key
 from backend.store.upkeep.backup import backup_of, place_of
 from backend.store.upkeep.check import check_store
-from tests.fakes.s3 import KEYS, Gate, S3Server
+from tests.fakes.s3 import KEYS, Gate, S3Server, keys_in
 from tests.unit.store.ride_data import CHANNELS, PERIOD_US, STARTED_US, honest_ride
 
 pytestmark = pytest.mark.slow
@@ -53,15 +52,6 @@ def url(server: S3Server, gate: Gate) -> str:
 @pytest.fixture
 def database(tmp_path: Path) -> str:
     return f"sqlite:///{tmp_path}/spindle.db"
-
-
-def keys_in(server: S3Server, url: str) -> set[str]:
-    """What is in the bucket, by another connection than the store's."""
-    place = bucket_place(url)
-    s3 = S3FileSystem(endpoint_override=server.url.removeprefix("http://"), scheme="http")
-    base = f"{place.bucket}/{place.prefix}"
-    found = s3.get_file_info(FileSelector(base.rstrip("/"), recursive=True, allow_not_found=True))
-    return {one.path.removeprefix(base) for one in found if one.is_file}
 
 
 def recorded(store: Store) -> int:
