@@ -19,7 +19,7 @@ FUNCTION_LINES_MAX = 70
 LINE_LENGTH_MAX = 100
 CODE_SUFFIXES = {".py", ".c", ".h", ".ts", ".svelte", ".css"}
 LINES_MAX = {
-    "backend": 1_750,
+    "backend": 1_770,
     "backend/audit": 370,
     "backend/bikes": 920,
     "backend/calibration": 7_650,
@@ -27,13 +27,13 @@ LINES_MAX = {
     "backend/core": 3_080,
     "backend/device": 6_550,
     "backend/formats": 8_550,
-    "backend/imports": 2_870,
+    "backend/imports": 2_890,
     "backend/law": 4_400,
     "backend/paper": 450,
     "backend/people": 2_280,
     "backend/rides": 10_650,
     "backend/server": 660,
-    "backend/store": 8_430,
+    "backend/store": 8_860,
     "backend/tuning": 3_540,
     "backend/units": 2_270,
     "backend/visits": 2_110,
@@ -42,7 +42,7 @@ LINES_MAX = {
     "frontend": 49_060,
     "sim_device": 21_150,
     "spindle": 700,
-    "tests": 77_790,
+    "tests": 78_410,
     "tools": 4_800,
 }
 """Lines of written code a room may have. A commit lowers a budget with what it removes; one that

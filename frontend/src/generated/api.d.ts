@@ -5543,7 +5543,7 @@ export interface components {
              * Code
              * @enum {string}
              */
-            code: "disk_full" | "store_read_only" | "io_error" | "queue_full" | "database_unreachable" | "database_damaged" | "rows_lost" | "rows_missing_machine" | "rows_missing_line" | "rows_missing_unit" | "rides_damaged";
+            code: "disk_full" | "store_read_only" | "io_error" | "queue_full" | "database_unreachable" | "database_damaged" | "objects_unreachable" | "objects_refused" | "rows_lost" | "rows_missing_machine" | "rows_missing_line" | "rows_missing_unit" | "rides_damaged";
             /** Message */
             message: string;
             /**
@@ -9258,7 +9258,7 @@ export interface components {
             database: string;
             /**
              * Folder
-             * @description Of rides and originals, on the server's machine.
+             * @description Of rides and originals: a folder of the server's machine, or a bucket.
              */
             folder: string;
             /** Rides */
@@ -9272,9 +9272,9 @@ export interface components {
             object_bytes: number;
             /**
              * Free Bytes
-             * @description On the disk of the folder.
+             * @description On the disk of the folder; null for a bucket.
              */
-            free_bytes: number;
+            free_bytes: number | null;
         };
         /**
          * Struck

@@ -7,6 +7,7 @@ Method: moto's S3 in a process of its own, behind a gate that answers itself whe
 from __future__ import annotations
 
 import os
+import socket
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -206,6 +207,17 @@ def test_an_object_that_is_missing_is_told_from_a_bucket_that_does_not_answer(
     with pytest.raises(StoreError, match="does not answer"):
         objects.find(key)
     assert objects.here(key) is None
+
+
+def test_a_server_that_is_gone_or_says_nothing_does_not_answer(
+    gate: Gate, database: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("backend.store.bucket.REQUEST_TIMEOUT_S", 0.3)
+    with socket.create_server(("127.0.0.1", 0)) as silent:
+        for port in (1, silent.getsockname()[1]):
+            with pytest.raises(ObjectsAway, match="does not answer") as away:
+                open_store(database, f"s3://b?endpoint=http://127.0.0.1:{port}", tmp_path / "c")
+            assert away.value.code == "objects_unreachable"
 
 
 def test_copies_that_nobody_opened_lately_make_room(url: str, tmp_path: Path) -> None:
