@@ -6,8 +6,8 @@ What is written is in the bucket before it counts. An object of several parts ap
 of them, so a stop on the way leaves none. Keys of access come from the environment, the files of
 AWS or the machine (`AWS_ACCESS_KEY_ID`, `~/.aws`, instance role), never from the URL.
 
-The folder beside (`cache`) may be removed while no server runs, but for `.spool/`, uploads that still
-arrive: the rest are copies and files on their way. Only what never changes is read from it.
+The folder beside (`cache`) may be removed while no server runs, but for `.spool/`, uploads that
+still arrive: the rest are copies and files on their way. Only what never changes is read from it.
 """
 
 from __future__ import annotations

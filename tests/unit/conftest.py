@@ -24,7 +24,7 @@ def reopen(tmp_path: Path) -> Iterator[OpenStore]:
     opened: list[Store] = []
 
     def work(disk: Disk | None = None) -> Store:
-        store = open_store(*urls(tmp_path), disk)
+        store = open_store(*urls(tmp_path), disk=disk)
         opened.append(store)
         return store
 

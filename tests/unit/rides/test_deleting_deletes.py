@@ -63,7 +63,7 @@ class Shop:
 
     def open(self, disk: Disk | None = None) -> None:
         self.store = open_store(
-            f"sqlite:///{self.folder}/db", f"file://{self.folder}/objects", disk
+            f"sqlite:///{self.folder}/db", f"file://{self.folder}/objects", disk=disk
         )
         self.uploads = Uploads(self.store, UploadSettings(expires_s=self.expires_s), self.read)
         self.rides = Rides(self.store)

@@ -249,10 +249,3 @@ def test_only_one_spindle_may_use_a_folder(store: Store) -> None:
 
     assert second.returncode != 0
     assert "Another Spindle is using" in second.stderr
-
-
-def test_an_object_store_that_is_not_there_yet_is_refused_by_name() -> None:
-    from backend.store import open_store
-
-    with pytest.raises(StoreError, match="s3://"):
-        open_store("sqlite:////nowhere/x.db", "s3://bucket/prefix")

@@ -31,7 +31,7 @@ Files = dict[str, bytes]
 
 
 def opened(folder: Path, database: str = "spindle.db", disk: Disk | None = None) -> Store:
-    return open_store(f"sqlite:///{folder}/{database}", (folder / "objects").as_uri(), disk)
+    return open_store(f"sqlite:///{folder}/{database}", (folder / "objects").as_uri(), disk=disk)
 
 
 def add_ride(store: Store, rows: int = 300, seed: int = 1) -> int:

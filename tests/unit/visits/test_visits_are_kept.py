@@ -214,7 +214,7 @@ def test_a_step_that_fails_leaves_what_was_or_what_is(
     for number in range(1, DISK_STEPS_MAX):
         folder = tmp_path / str(number)
         disk = Dying(steps=EVERY_STEP)
-        store = open_store(*urls(folder), disk)
+        store = open_store(*urls(folder), disk=disk)
         bike = a_bike(store)
         a_bike(store, "Red")
         visit = opened(visits_on(store), bike)
