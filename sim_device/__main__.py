@@ -5,6 +5,7 @@
 """
 
 import argparse
+import contextlib
 import json
 import os
 import sys
@@ -23,7 +24,7 @@ from sim_device.lockstep import NO_MARKET, LockstepUnit, market_named, uid_of
 from sim_device.scenario import list_scenarios, run
 from sim_device.scenario_file import ScenarioError, ScenarioFile, load, load_live, names
 from sim_device.serial_line import PtyLine, SerialLine, TcpLine
-from sim_device.simulator import Stop, new_boot_id, save, serve
+from sim_device.simulator import ServedUnit, Stop, new_boot_id, save, serve
 
 PROGRAM = "sim_device"
 DEFAULT_SCENARIO = "commute"
@@ -32,6 +33,8 @@ LOOPBACK = "127.0.0.1"
 # Where every unit starts.
 SERIAL_RATE = 115200
 HOST_BOARD = "host"
+# In one process; a core serves some hundred.
+UNITS_MAX = 256
 
 
 def command_line(program: str = PROGRAM) -> argparse.ArgumentParser:
@@ -87,6 +90,13 @@ def _add_unit(unit: argparse.ArgumentParser) -> None:
         choices=sensor_state.names(),
         help="the state of its torque sensor: sound as the thesis' two, worn or broken",
     )
+    unit.add_argument(
+        "--count",
+        type=_count,
+        default=1,
+        metavar="N",
+        help="units in this process, with the next seeds, on the next ports, LINK-2, FILE-2 ...",
+    )
     unit.add_argument("--seed", type=int, default=0, help="makes noise and serial number")
     unit.add_argument(
         "--flash",
@@ -112,6 +122,12 @@ def _port(text: str) -> tuple[str, int]:
     if not port.isdecimal() or not int(port) <= 65535:
         raise argparse.ArgumentTypeError(f"{text} is not [HOST:]PORT")
     return host or LOOPBACK, int(port)
+
+
+def _count(text: str) -> int:
+    if not text.isdecimal() or not 1 <= int(text) <= UNITS_MAX:
+        raise argparse.ArgumentTypeError(f"{text} is not a number from 1 to {UNITS_MAX}")
+    return int(text)
 
 
 def _speed(text: str) -> float:
@@ -168,17 +184,39 @@ def host_unit(
 def _serve(arguments: argparse.Namespace) -> None:
     stop = Stop()
     if arguments.board != HOST_BOARD:
+        if arguments.count > 1:
+            raise ValueError(f"--count is for units of --board {HOST_BOARD}")
         _serve_board(arguments, stop)
         return
-    unit, flash, log = host_unit(arguments)
-    pty: Path | None = arguments.pty
-    line: SerialLine = PtyLine(pty) if pty is not None else TcpLine(*arguments.tcp)
-    try:
-        save(unit, flash, log)
-        _ready(line.address)
-        serve(unit, line, stop, flash, log)
-    finally:
-        line.close()
+    with contextlib.ExitStack() as closing:
+        served = []
+        for number in range(arguments.count):
+            unit, flash, log = host_unit(_of_one(arguments, number))
+            line = closing.enter_context(contextlib.closing(_line(arguments, number)))
+            save(unit, flash, log)
+            served.append(ServedUnit(unit, line, flash, log))
+        for one in served:
+            _ready(one.line.address)
+        serve(served, stop)
+
+
+def _of_one(arguments: argparse.Namespace, number: int) -> argparse.Namespace:
+    """The words of one unit of several: a seed and a memory of its own."""
+    flash = arguments.flash and _numbered(arguments.flash, number)
+    own = {"seed": arguments.seed + number, "flash": flash}
+    return argparse.Namespace(**vars(arguments) | own)
+
+
+def _line(arguments: argparse.Namespace, number: int) -> SerialLine:
+    if arguments.pty is not None:
+        return PtyLine(_numbered(arguments.pty, number))
+    host, port = arguments.tcp
+    return TcpLine(host, port + number if port else 0)
+
+
+def _numbered(path: Path, number: int) -> Path:
+    """The path of the first unit as it was given, then path-2, path-3 ..."""
+    return path.with_name(f"{path.name}-{number + 1}") if number else path
 
 
 def _serve_board(arguments: argparse.Namespace, stop: Stop) -> None:

@@ -1,4 +1,4 @@
-"""The simulated unit as a process: a lockstep unit, a serial line and a clock.
+"""Simulated units as a process: for each a lockstep unit, a serial line and a clock.
 
 The unit's time follows the clock times the speed factor, measured from an anchor, so that rounding
 and late wake-ups do not add up. With a virtual clock it stands, answers what it is asked, and lets
@@ -10,7 +10,8 @@ import os
 import secrets
 import signal
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 from types import FrameType
 
 from sim_device.flash_file import FlashFile, LogFile
@@ -66,38 +67,50 @@ class Stop:
         return self._asked or os.getppid() != self._parent
 
 
-def serve(
-    unit: LockstepUnit,
-    line: SerialLine,
-    stop: Callable[[], bool],
-    flash: FlashFile | None = None,
-    log: LogFile | None = None,
-) -> None:
-    """Runs the unit against the clock until `stop()`.
+@dataclass
+class ServedUnit:
+    """A unit on its line, and its flash memories on disk."""
 
-    What the unit says leaves only when its flash memories are on disk as they were when it spoke:
-    an acknowledged write is there after the process was killed.
-    """
-    pace = Pace(time.monotonic(), unit.speed_factor)
-    waiting = b""
-    while not stop():
-        now_s = time.monotonic()
+    unit: LockstepUnit
+    line: SerialLine
+    flash: FlashFile | None = None
+    log: LogFile | None = None
+    pace: Pace = field(init=False)
+    _waiting: bytes = b""
+
+    def __post_init__(self) -> None:
+        self.pace = Pace(time.monotonic(), self.unit.speed_factor)
+
+    def turn(self, now_s: float) -> float:
+        """Bytes in, time, bytes out; returns how many seconds the next turn may be away.
+
+        What the unit says leaves only when its flash memories are on disk as they were when it
+        spoke: an acknowledged write is there after the process was killed.
+        """
+        unit, line = self.unit, self.line
         unit.send(line.read())
-        due_us = pace.due_us(now_s, unit.speed_factor)
+        due_us = self.pace.due_us(now_s, unit.speed_factor)
         if unit.clock == "real":
             _advance(unit, line, due_us)
-        elif not waiting:
+        elif not self._waiting:
             unit.poll()
             unit.pay(PIECE_US)
         # Only when the line took everything is more asked for: the unit itself notices a full line.
-        waiting = waiting or unit.receive()
-        save(unit, flash, log)
-        if waiting:
-            waiting = waiting[line.write(waiting) :]
+        self._waiting = self._waiting or unit.receive()
+        save(unit, self.flash, self.log)
+        if self._waiting:
+            self._waiting = self._waiting[line.write(self._waiting) :]
         if unit.owed_us == 0:
-            time.sleep(SLEEP_S)
-        elif waiting:
-            time.sleep(LINE_FULL_S)
+            return SLEEP_S
+        return LINE_FULL_S if self._waiting else 0.0
+
+
+def serve(units: Sequence[ServedUnit], stop: Callable[[], bool]) -> None:
+    """Runs the units against the clock until `stop()`."""
+    while not stop():
+        pause_s = min([served.turn(time.monotonic()) for served in units])
+        if pause_s > 0.0:
+            time.sleep(pause_s)
 
 
 def save(unit: LockstepUnit, flash: FlashFile | None, log: LogFile | None) -> None:

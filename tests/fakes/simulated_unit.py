@@ -21,7 +21,7 @@ from sim_device.__main__ import command_line, host_unit
 from sim_device.emulator import BOARD_VARIABLE
 from sim_device.lockstep import US_PER_S, LockstepUnit
 from sim_device.serial_line import TcpLine
-from sim_device.simulator import PIECE_US, Pace, save, serve
+from sim_device.simulator import PIECE_US, Pace, ServedUnit, save, serve
 
 # Of PIECE_US, in one read: while virtual time passes, the host hears of half a second at once.
 PIECES_MAX = 5
@@ -138,8 +138,9 @@ class UnitOnPort:
 
     def __init__(self, *words: str, port: int = 0) -> None:
         asked = ["unit", "--tcp", str(port), *words]
-        self._unit, self._flash, self._log = host_unit(command_line().parse_args(asked))
+        self._unit, flash, log = host_unit(command_line().parse_args(asked))
         self._line = TcpLine("127.0.0.1", port)
+        self._served = ServedUnit(self._unit, self._line, flash, log)
         self.port = int(self._line.address)
         self.url = f"socket://127.0.0.1:{self.port}"
         self._speaking = threading.Event()
@@ -178,7 +179,7 @@ class UnitOnPort:
 
     def _serve(self) -> None:
         try:
-            serve(self._unit, self._line, self._between, self._flash, self._log)
+            serve([self._served], self._between)
         finally:
             self._line.close()
 

@@ -80,6 +80,24 @@ def test_a_host_opens_the_pty_like_a_port_and_may_come_back(tmp_path: Path) -> N
 
 
 @posix
+def test_several_units_share_a_process_and_nothing_else(tmp_path: Path) -> None:
+    link, flash = tmp_path / "bike", tmp_path / "flash"
+    words = ("--pty", str(link), "--flash", str(flash), "--count", "3")
+    with simulator(*words, "--scenario", "none") as (child, address):
+        assert child.stdout is not None
+        addresses = [address, *(child.stdout.readline().split()[1] for _ in range(2))]
+        assert addresses == [str(link), f"{link}-2", f"{link}-3"]
+        hellos = set()
+        for each in addresses:
+            with serial.Serial(each, 115200, timeout=WAIT_S) as port:
+                port.reset_input_buffer()
+                port.write(HELLO)
+                hellos.add(port.read_until(b"\x00", 1) + port.read_until(b"\x00"))
+        assert len(hellos) == 3
+    assert {path.name for path in tmp_path.glob("flash*")} == {"flash", "flash-2", "flash-3"}
+
+
+@posix
 def test_sigterm_ends_the_process_and_takes_the_link_away(tmp_path: Path) -> None:
     link = tmp_path / "bike"
     with simulator("--pty", str(link)) as (child, _):
@@ -133,6 +151,7 @@ def test_a_socket_takes_one_host_at_a_time() -> None:
         (["--tcp", "0", "--speed", "0"], "not a number from 0.01 to 1000"),
         (["--tcp", "0", "--scenario", "start"], "scenario 'start' is measured, not ridden"),
         (["--tcp", "0", "--scenario", "no.toml"], "no.toml cannot be read: No such file"),
+        (["--tcp", "0", "--count", "0"], "0 is not a number from 1 to 256"),
         (["--tcp", "here"], "here is not [HOST:]PORT"),
     ],
 )

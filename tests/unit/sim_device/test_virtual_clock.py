@@ -17,7 +17,7 @@ from firmware_protocol.framing import FrameDecoder, encode_frame
 from sim_device.controls import unpack
 from sim_device.lockstep import LockstepUnit
 from sim_device.scenario_file import ScenarioError
-from sim_device.simulator import serve
+from sim_device.simulator import ServedUnit, serve
 
 
 class Host:
@@ -58,7 +58,10 @@ def live_for(unit: LockstepUnit, seconds: float, takes_bytes: int = 4096) -> Hos
     until_s = unit.simulation_get()["t_s"] + seconds
     host = Host(rounds=10_000, takes_bytes=takes_bytes)
     host.ask(1, SimSetRequest(json.dumps({"advance_s": seconds}).encode()))
-    serve(unit, host, lambda: host.stop() or unit.simulation_get()["t_s"] >= until_s - 1e-9)
+    serve(
+        [ServedUnit(unit, host)],
+        lambda: host.stop() or unit.simulation_get()["t_s"] >= until_s - 1e-9,
+    )
     return host
 
 
@@ -68,7 +71,7 @@ def test_the_unit_answers_while_its_time_stands() -> None:
     host.ask(1, HelloRequest(1, 1, 0, 512, b"12345678"))
     host.ask(2, SimGetRequest())
 
-    serve(unit, host, host.stop)
+    serve([ServedUnit(unit, host)], host.stop)
 
     hello, simulation = host.answers()
     assert hello.tid == 1
