@@ -8,6 +8,7 @@ from tools.bench import (
     board,
     law,
     link,
+    load,
     logbook,
     logs,
     pages,
@@ -33,6 +34,7 @@ SECTIONS = {
     "Ten thousand rides": logbook.run,
     "Files": uploads.run,
     "The server": server.run,
+    "Many units": load.run,
     "The pages in a browser": pages.run,
     "The firmware on a Cortex-M4F": board.run,
 }

@@ -15,6 +15,7 @@ import time
 import urllib.request
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -47,24 +48,28 @@ def run() -> list[Figure]:
 
 
 @contextmanager
-def serving(data: Path, device: str) -> Iterator[tuple["subprocess.Popen[bytes]", str, float]]:
+def serving(
+    data: Path, *devices: str, ready_within_s: float = READY_WITHIN_S
+) -> Iterator[tuple["subprocess.Popen[bytes]", str, float]]:
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
     address = f"http://127.0.0.1:{port}/api/v1"
     command = [sys.executable, "-m", "backend.cli", "serve", "--port", str(port)]
-    command += ["--data", str(data), "--device", device]
+    command += ["--data", str(data)]
+    for device in devices:
+        command += ["--device", device]
     start = time.perf_counter()
     process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.DEVNULL)
     try:
         while not all_ready(address):
-            if time.perf_counter() - start > READY_WITHIN_S:
-                raise TimeoutError(f"no unit ready at {address} after {READY_WITHIN_S} s")
+            if time.perf_counter() - start > ready_within_s:
+                raise TimeoutError(f"no unit ready at {address} after {ready_within_s} s")
             time.sleep(0.02)
         yield process, address, time.perf_counter() - start
     finally:
         process.send_signal(signal.SIGINT)
-        process.wait(20)
+        process.wait(60)
 
 
 def all_ready(address: str) -> bool:
@@ -125,10 +130,28 @@ def resident_bytes(pid: int) -> int:
 
 
 def cpu_share_pct(pid: int, seconds: float) -> float:
+    """Per cent of a core that a process takes from now on."""
+    with cpu_share(pid) as share:
+        time.sleep(seconds)
+    return share.pct
+
+
+@dataclass
+class CpuShare:
+    """Per cent of a core, once it was measured."""
+
+    pct: float = 0.0
+
+
+@contextmanager
+def cpu_share(pid: int) -> Iterator[CpuShare]:
+    """The share of a core that a process takes inside."""
+
     def ticks() -> int:
         fields = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
         return int(fields[11]) + int(fields[12])
 
-    before = ticks()
-    time.sleep(seconds)
-    return 100 * (ticks() - before) / os.sysconf("SC_CLK_TCK") / seconds
+    share, before, start = CpuShare(), ticks(), time.perf_counter()
+    yield share
+    lasted_s = time.perf_counter() - start
+    share.pct = 100 * (ticks() - before) / os.sysconf("SC_CLK_TCK") / lasted_s
