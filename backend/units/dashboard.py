@@ -25,6 +25,7 @@ from backend.core.energy import (
     RADIANS_PER_S_PER_RPM,
     motor_torque_meaning,
 )
+from backend.device.gathering import Gathering
 from backend.device.states import DeviceEvent
 from backend.device.stream import StreamBlock
 from backend.errors import NotFound
@@ -81,6 +82,7 @@ class _Moment:
     """Means over a few rows; t_s: their middle."""
 
     t_s: float
+    rows: int
     speed_ms: float
     rider_power_w: float
     motor_power_w: float
@@ -123,7 +125,7 @@ class DashboardAccount:
         self._t_us = t0_us + (rows - 1) * period_us
         self._latest = {name: _last(column) for name, column in columns.items()}
         self._note_charge(self._latest.get("battery_soc_pct"))
-        self._remember((t0_us + self._t_us) / 2 / US_PER_S, columns)
+        self._remember((t0_us + self._t_us) / 2 / US_PER_S, rows, columns)
 
     def now(self) -> Dashboard:
         """The values as of the last row."""
@@ -132,8 +134,8 @@ class DashboardAccount:
             t_us=self._t_us,
             speed_kmh=self._latest.get("speed_kmh"),
             acceleration_ms2=self._acceleration_ms2(),
-            rider_power_w=_mean([moment.rider_power_w for moment in self._recent]),
-            motor_power_w=_mean([moment.motor_power_w for moment in self._recent]),
+            rider_power_w=_mean([(one.rider_power_w, one.rows) for one in self._recent]),
+            motor_power_w=_mean([(one.motor_power_w, one.rows) for one in self._recent]),
             battery_soc_pct=soc_pct,
             battery_voltage_v=self._latest.get("battery_voltage_v"),
             distance_km=self._distance_m / 1000.0,
@@ -141,9 +143,10 @@ class DashboardAccount:
             range_km=self._range_km(soc_pct),
         )
 
-    def _remember(self, t_s: float, columns: Mapping[str, Column]) -> None:
+    def _remember(self, t_s: float, rows: int, columns: Mapping[str, Column]) -> None:
         moment = _Moment(
             t_s=t_s,
+            rows=rows,
             speed_ms=_mean_of(columns.get("speed_kmh")) * MS_PER_KMH,
             rider_power_w=_power_w(columns, "rider_torque_nm", "cadence_rpm"),
             motor_power_w=(
@@ -203,9 +206,11 @@ def _power_w(columns: Mapping[str, Column], torque_nm: str, speed_rpm: str) -> f
     return float((torque * speed).mean()) * RADIANS_PER_S_PER_RPM
 
 
-def _mean(values: list[float]) -> float | None:
-    numbers = [value for value in values if math.isfinite(value)]
-    return sum(numbers) / len(numbers) if numbers else None
+def _mean(values: list[tuple[float, int]]) -> float | None:
+    """Of means over so many rows; None where none of them is a number."""
+    numbers = [(value, rows) for value, rows in values if math.isfinite(value)]
+    rows = sum(rows for _, rows in numbers)
+    return sum(value * rows for value, rows in numbers) / rows if rows else None
 
 
 @dataclass
@@ -214,6 +219,14 @@ class _Account:
 
     account: DashboardAccount = field(default_factory=DashboardAccount)
     epoch: int | None = None
+    gathering: Gathering = field(default_factory=Gathering)
+
+    def take(self, block: StreamBlock) -> None:
+        if self.account.t_us is not None and block.t0_us < self.account.t_us:
+            self.account, self.epoch = DashboardAccount(), None
+        lost_rows = block.lost_rows_before if self.epoch == block.epoch else 0
+        self.epoch = block.epoch
+        self.account.take(block.t0_us, block.period_us, _columns(block), lost_rows)
 
 
 class Dashboards:
@@ -227,21 +240,20 @@ class Dashboards:
         """Take what a unit sent; anything but rows is not for us."""
         if not isinstance(event, StreamBlock):
             return
-        columns = _columns(event)
         with self._lock:
             account = self._accounts.setdefault(device_id, _Account())
-            if account.account.t_us is not None and event.t0_us < account.account.t_us:
-                account = self._accounts[device_id] = _Account()
-            lost_rows = event.lost_rows_before if account.epoch == event.epoch else 0
-            account.epoch = event.epoch
-            account.account.take(event.t0_us, event.period_us, columns, lost_rows)
+            for block in account.gathering.add(event):
+                account.take(block)
 
     def get(self, device_id: str) -> Dashboard:
         """The values of a unit as of its last row. Raises NotFound before the first."""
         with self._lock:
             if device_id not in self._accounts:
                 raise NotFound(f"{device_id} has sent no row yet, or there is no such unit.")
-            return self._accounts[device_id].account.now()
+            account = self._accounts[device_id]
+            for block in account.gathering.take():
+                account.take(block)
+            return account.account.now()
 
 
 def _columns(block: StreamBlock) -> dict[str, Column]:

@@ -20,7 +20,8 @@ from backend.formats import ImportedRide
 from backend.formats.formats import read_file
 from backend.imports.service import Uploads
 from backend.imports.unit_logs import Collect
-from backend.rides.recording.recorder import Recorder, RecordSettings
+from backend.rides.recording.recorder import Recorder
+from backend.rides.recording.unit_recorder import RecordSettings
 from backend.store import Store, open_store
 from backend.tuning.records import RevisionStore
 from backend.units.inspection import Inspection

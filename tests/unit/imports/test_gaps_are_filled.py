@@ -22,7 +22,8 @@ from backend.device.stream import StreamBlock
 from backend.errors import StoreError
 from backend.formats import ImportedRide, Outcome
 from backend.imports.service import Uploads
-from backend.rides.recording.recorder import Recorder, RecordSettings
+from backend.rides.recording.recorder import Recorder
+from backend.rides.recording.unit_recorder import RecordSettings
 from backend.store import Store, open_store, rides
 from backend.store.discard import named_keys
 from backend.store.objects import Disk

@@ -15,7 +15,8 @@ from sqlalchemy import Connection, event
 
 from backend.errors import StoreFull
 from backend.main import open_services
-from backend.rides.recording.recorder import Recorder, RecordSettings
+from backend.rides.recording.recorder import Recorder
+from backend.rides.recording.unit_recorder import RecordSettings
 from backend.settings import load
 from backend.store import Store, open_store
 from backend.store.health import CALM_S, WriteWatch
@@ -174,7 +175,9 @@ def test_a_ride_that_a_start_could_not_finish_is_finished_without_another_start(
 
         ride = eventually(lambda: services.rides.get(1), lambda ride: ride["state"] == "done")
 
-    assert (ride["row_count"], ride["cut_short"]) == (500, True)
+    assert ride["cut_short"] is True
+    # A server that dies loses less than a second.
+    assert 400 < ride["row_count"] <= 500
 
 
 def test_a_spell_of_trouble_is_logged_once_when_it_begins_and_once_when_it_ends(

@@ -24,8 +24,9 @@ from backend.device.stream import LostBy, StreamBlock
 from backend.errors import Conflict, NotFound, StoreError
 from backend.rides.recording.bounds import LOST_BY_WORDS
 from backend.rides.recording.marks import MarkMoment
-from backend.rides.recording.recorder import Recorder, RecordSettings
+from backend.rides.recording.recorder import Recorder
 from backend.rides.recording.running import RunningTotals
+from backend.rides.recording.unit_recorder import RecordSettings
 from backend.server.health import HealthCheck
 from backend.store import Store
 from backend.units.service import Devices
