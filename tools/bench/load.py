@@ -26,7 +26,7 @@ from tools.bench.figures import Figure
 from tools.bench.server import ROOT, ask, cpu_share, resident_bytes, serving
 
 HEADER = struct.Struct("<IIQHH")
-ASKED_EVERY_S = 0.2
+REQUEST_EVERY_S = 0.2
 SETTLE_S = 5.0
 
 
@@ -86,7 +86,7 @@ def measured(units: int, viewers: int, seconds: float) -> Load:
                     asked = time.perf_counter()
                     ask(address, "/rides?limit=50")
                     answered.append(1e3 * (time.perf_counter() - asked))
-                    time.sleep(ASKED_EVERY_S)
+                    time.sleep(REQUEST_EVERY_S)
             after = counted(address, ids)
             missed = int(watching.communicate(timeout=60)[0])
             resident_mb = resident_bytes(process.pid) / 1e6
