@@ -105,7 +105,7 @@ def open_objects(url: str, cache: Path | None = None, disk: Disk | None = None) 
         return FileObjects(Path(url2pathname(parts.path)), disk)
     if parts.scheme == "s3" and cache is not None:
         return BucketObjects(bucket_place(url), cache, disk)
-    raise refused(f"There are no objects at {parts.scheme}://. Write {FORMS}.")
+    raise refused(f"The URL of the objects: there is no scheme {parts.scheme!r}. Write {FORMS}.")
 
 
 def filesystem(place: BucketPlace) -> S3FileSystem:

@@ -99,7 +99,11 @@ def test_a_data_folder_that_cannot_be_says_where_and_what_to_do(tmp_path: Path) 
 def test_objects_where_none_can_be_say_where(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
 
-    for objects in ("s3://bucket", "nonsense", "file:///proc/nope", f"file://{tmp_path}/file"):
+    for objects in ("ftp://bucket", "nonsense", "s3://KEY:hunter2@bucket"):
+        start = refused_start(tmp_path / "data", SPINDLE_OBJECTS=objects)
+        is_told(start, 2, "The URL of the objects")
+        assert "hunter2" not in start.stderr
+    for objects in ("file:///proc/nope", f"file://{tmp_path}/file"):
         is_told(refused_start(tmp_path / "data", SPINDLE_OBJECTS=objects), 1)
 
 
